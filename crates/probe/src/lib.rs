@@ -1,0 +1,7 @@
+#![doc = include_str!("../README.md")]
+
+mod ids;
+mod observe;
+
+pub use ids::{EdgeId, Id, IdVec, PathId, VertexId};
+pub use observe::{Off, Probe};
