@@ -1,1 +1,10 @@
 #![doc = include_str!("../README.md")]
+
+pub mod planar;
+pub mod predicates;
+pub mod rays;
+
+/// A point of the plane, metres; its frame is in the name of the variable.
+pub type Point2 = nalgebra::Point2<f64>;
+/// A vector of the plane, metres.
+pub type Vector2 = nalgebra::Vector2<f64>;

@@ -1,1 +1,5 @@
 #![doc = include_str!("../README.md")]
+
+mod cells;
+
+pub use cells::CellMap;
