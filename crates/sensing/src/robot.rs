@@ -1,6 +1,5 @@
 //! What a policy can ask of a robot.
 
-use pose::Se2;
 use probe::VertexId;
 
 use crate::{Odometry, PlaceMatch, Repeated, Scan};
@@ -16,11 +15,12 @@ pub trait Robot {
     /// Drives straight ahead, metres (at least 0).
     fn forward(&mut self, distance_m: f64) -> Odometry;
 
-    /// Repeats the taught leg to `to`, an edge away from the vertex that the robot stands on.
+    /// Repeats the taught way to `to`, one link of the pose graph away.
     ///
-    /// `here_from_there` is what the graph says of that edge: the vertex `to` in the frame of the
-    /// vertex that the robot stands on. The robot arrives heading along the leg.
-    fn repeat(&mut self, to: VertexId, here_from_there: &Se2) -> Repeated;
+    /// `length_m` is the length of that way, which is what the drive costs; a link may stand for
+    /// several taught legs, so it can be longer than the straight line. The robot arrives heading
+    /// along the straight line from where it stood, or unturned where the two places coincide.
+    fn repeat(&mut self, to: VertexId, length_m: f64) -> Repeated;
 
     /// Takes a scan where the robot stands.
     fn scan(&mut self) -> Scan;
