@@ -1,0 +1,51 @@
+//! What can be wrong with a request to a pose graph.
+
+use probe::{EdgeId, VertexId};
+
+/// A request that the graph cannot serve.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum PoseGraphError {
+    /// The vertex was never added.
+    #[error("vertex {vertex} is not in the graph, which holds {len} vertices")]
+    UnknownVertex {
+        /// The vertex asked for.
+        vertex: VertexId,
+        /// Number of vertices that the graph holds.
+        len: usize,
+    },
+    /// The edge was never added.
+    #[error("edge {edge} is not in the graph, which holds {len} edges")]
+    UnknownEdge {
+        /// The edge asked for.
+        edge: EdgeId,
+        /// Number of edges that the graph holds.
+        len: usize,
+    },
+    /// An edge must join two different vertices.
+    #[error("an edge from {vertex} to itself says nothing about poses")]
+    SelfEdge {
+        /// The vertex at both ends.
+        vertex: VertexId,
+    },
+    /// The relative pose has a part that is not a number.
+    #[error("the relative pose of {a} and {b} is not finite")]
+    NotFinite {
+        /// Where the edge starts.
+        a: VertexId,
+        /// Where the edge ends.
+        b: VertexId,
+    },
+    /// Only place edges can be withdrawn: odometry is how the robot got there.
+    #[error("edge {edge} is odometry and cannot be withdrawn")]
+    NotAPlaceEdge {
+        /// The edge asked for.
+        edge: EdgeId,
+    },
+    /// The edge was withdrawn before.
+    #[error("edge {edge} is withdrawn already")]
+    AlreadyWithdrawn {
+        /// The edge asked for.
+        edge: EdgeId,
+    },
+}

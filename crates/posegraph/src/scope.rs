@@ -1,0 +1,185 @@
+//! Relative placement along shortest paths, and the consolidation scope ([ISRR19] 4.2, 4.3).
+
+use pose::Se2;
+use probe::{EdgeId, VertexId};
+use search::{Graph, Scratch, dijkstra_nearest, dijkstra_within};
+
+use crate::{Link, Skeleton};
+
+/// The skeleton as the search sees it: links cost their length.
+struct ByLength<'a>(&'a Skeleton);
+
+impl Graph for ByLength<'_> {
+    type Node = VertexId;
+
+    fn node_bound(&self) -> usize {
+        self.0.len()
+    }
+
+    fn for_each_edge(&self, from: VertexId, mut visit: impl FnMut(VertexId, f64)) {
+        for link in self.0.links(from) {
+            visit(link.to, link.length_m);
+        }
+    }
+}
+
+/// A vertex placed relative to the root of a scope, along its shortest path.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placed {
+    /// The vertex.
+    pub vertex: VertexId,
+    /// Its frame in the frame of the root.
+    pub root_from_vertex: Se2,
+    /// Length of the shortest path from the root, metres.
+    pub distance_m: f64,
+    /// Position in [`Scope::placed`] of the vertex before it on that path; `None` at the root.
+    pub parent: Option<u32>,
+}
+
+/// How a vertex lies relative to the root: a shorthand for one row of a scope.
+pub type Placement = Se2;
+
+/// All vertices within a radius of a root along the graph, nearest first.
+#[derive(Clone, Debug, Default)]
+pub struct Scope {
+    placed: Vec<Placed>,
+}
+
+impl Scope {
+    /// The vertices with their placements, by rising distance; the root is the first.
+    pub fn placed(&self) -> &[Placed] {
+        &self.placed
+    }
+
+    /// The root, or `None` in a scope that was never filled.
+    pub fn root(&self) -> Option<VertexId> {
+        self.placed.first().map(|root| root.vertex)
+    }
+
+    /// The measured edges on the tree path between two rows of the scope.
+    ///
+    /// Edges that both rows share towards the root are not on it.
+    pub fn path_between(&self, skeleton: &Skeleton, a: usize, b: usize) -> Vec<EdgeId> {
+        let (mut i, mut j) = (a, b);
+        let mut head: Vec<EdgeId> = Vec::new();
+        let mut tail: Vec<&Link> = Vec::new();
+        // Rows are sorted by distance, so a parent always comes before its child: climbing from
+        // the later row meets the other at their last common vertex.
+        while i != j {
+            if i > j {
+                let Some(parent) = self.placed[i].parent else { break };
+                if let Some(link) = self.link(skeleton, i, parent as usize) {
+                    head.extend_from_slice(link.via.edges());
+                }
+                i = parent as usize;
+            } else {
+                let Some(parent) = self.placed[j].parent else { break };
+                if let Some(link) = self.link(skeleton, parent as usize, j) {
+                    tail.push(link);
+                }
+                j = parent as usize;
+            }
+        }
+        for link in tail.iter().rev() {
+            head.extend_from_slice(link.via.edges());
+        }
+        head
+    }
+
+    fn link<'s>(&self, skeleton: &'s Skeleton, from: usize, to: usize) -> Option<&'s Link> {
+        shortest_link(skeleton, self.placed[from].vertex, self.placed[to].vertex)
+    }
+}
+
+/// The shortest of the links from one vertex to its neighbour; the first of equals.
+fn shortest_link(skeleton: &Skeleton, from: VertexId, to: VertexId) -> Option<&Link> {
+    skeleton
+        .links(from)
+        .iter()
+        .filter(|link| link.to == to)
+        .min_by(|a, b| a.length_m.total_cmp(&b.length_m))
+}
+
+/// Memory that placements reuse, so that a step allocates nothing once it is warm.
+#[derive(Clone, Debug, Default)]
+pub struct ScopeScratch {
+    search: Scratch<VertexId>,
+    row_of: Vec<u32>,
+}
+
+impl ScopeScratch {
+    /// Places all vertices within `radius_m` of `root` along shortest paths into `scope`.
+    ///
+    /// A root that the skeleton does not hold, or that is retired, gives a scope of itself alone.
+    /// Cost: O(k log k) for k links inside the radius, whatever the size of the graph.
+    pub fn place(&mut self, skeleton: &Skeleton, root: VertexId, radius_m: f64, scope: &mut Scope) {
+        scope.placed.clear();
+        self.row_of.resize(skeleton.len(), u32::MAX);
+        let Ok(tree) = dijkstra_within(&ByLength(skeleton), root, radius_m, &mut self.search)
+        else {
+            let root_from_vertex = Se2::identity();
+            scope.placed.push(Placed { vertex: root, root_from_vertex, distance_m: 0.0, parent: None });
+            return;
+        };
+        for settled in tree.settled() {
+            let row = scope.placed.len() as u32;
+            self.row_of[settled.node.0 as usize] = row;
+            let (parent, root_from_vertex) = match settled.parent {
+                None => (None, Se2::identity()),
+                Some(before) => {
+                    let parent = self.row_of[before.0 as usize];
+                    let root_from_before = scope.placed[parent as usize].root_from_vertex;
+                    let step = shortest_link(skeleton, before, settled.node)
+                        .map_or_else(Se2::identity, |link| link.here_from_there);
+                    (Some(parent), root_from_before * step)
+                }
+            };
+            scope.placed.push(Placed {
+                vertex: settled.node,
+                root_from_vertex,
+                distance_m: settled.cost,
+                parent,
+            });
+        }
+    }
+
+    /// Length of the shortest path between two vertices if it is at most `limit_m`.
+    pub fn distance_within(
+        &mut self,
+        skeleton: &Skeleton,
+        a: VertexId,
+        b: VertexId,
+        limit_m: f64,
+    ) -> Option<f64> {
+        let nearest =
+            dijkstra_nearest(&ByLength(skeleton), a, limit_m, |node| node == b, &mut self.search);
+        nearest.ok()?.goal.map(|goal| goal.cost)
+    }
+
+    /// The shortest way from `root` to the nearest vertex that satisfies `is_goal`: the vertices
+    /// after the root, in driving order, each with the length of the link that leads to it.
+    ///
+    /// `Some` of an empty way means that the root itself is the goal.
+    pub fn way_to_nearest(
+        &mut self,
+        skeleton: &Skeleton,
+        root: VertexId,
+        is_goal: impl FnMut(VertexId) -> bool,
+    ) -> Option<Vec<(VertexId, f64)>> {
+        let found = dijkstra_nearest(
+            &ByLength(skeleton),
+            root,
+            f64::INFINITY,
+            is_goal,
+            &mut self.search,
+        )
+        .ok()?;
+        let goal = found.goal?.node;
+        let path = found.tree.path_to(goal)?;
+        let legs = path.windows(2).map(|pair| {
+            let length_m = shortest_link(skeleton, pair[0], pair[1]).map_or(0.0, |l| l.length_m);
+            (pair[1], length_m)
+        });
+        Some(legs.collect())
+    }
+}
