@@ -3,10 +3,14 @@
 mod cells;
 mod error;
 pub mod paper;
+mod robot;
 mod solid;
 mod world;
 
 pub use cells::CellMap;
 pub use error::WorldError;
+pub use robot::{
+    DriveParams, OdometryParams, PlaceParams, RobotParams, SensorParams, SimRobot, Tally, View,
+};
 pub use solid::Solid;
 pub use world::World2d;
