@@ -1,1 +1,22 @@
-//! See the crate page.
+//! Planar views: star polygons, clipping, and ledgers of what is still open.
+
+mod boundary;
+mod clip;
+mod error;
+mod interval;
+mod ledger;
+mod membership;
+mod segments;
+mod shrink;
+mod star;
+
+pub use boundary::{BoundaryEdge, BoundaryKind};
+pub use error::PlanarError;
+pub use interval::Interval;
+pub use ledger::{Closed, EdgeLedger};
+pub use membership::Sector;
+pub use segments::{
+    near_segment, nearest_parameter, point_segment_distance, segment_segment_distance,
+    segments_meet,
+};
+pub use star::StarPolygon;

@@ -1,1 +1,22 @@
-//! See the crate page.
+//! Exact predicates: every branch that decides topology asks one of these.
+//!
+//! A floating filter answers nearly always; where it cannot be sure, Shewchuk's adaptive
+//! arithmetic (crate `robust`) decides.
+//!
+//! | file | what it decides |
+//! |---|---|
+//! | `orientation.rs` | on which side of a line a point lies |
+//! | `bearing.rs` | which of two directions comes first |
+//! | `precise.rs` | nothing: it measures the same determinants to about 100 bits |
+//!
+//! **Envelope.** The signs are exact for coordinates that are zero or of magnitude
+//! [`SMALLEST`]`..=`[`LARGEST`]. Outside of it a product may underflow or overflow; NaN gives NaN.
+
+mod bearing;
+mod orientation;
+mod precise;
+
+pub(crate) use bearing::half_turn_or_more;
+pub use bearing::{compare_bearing_from, same_direction};
+pub use orientation::{LARGEST, SMALLEST, cross, cross_sign, in_envelope, orient, sign};
+pub use precise::{cross_precise, orient_precise};
