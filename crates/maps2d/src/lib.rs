@@ -1,1 +1,9 @@
 #![doc = include_str!("../README.md")]
+
+mod events;
+mod map;
+pub mod relative;
+pub mod volume;
+
+pub use events::MapProbe;
+pub use map::{Candidate, ExplorationMap, Frontier, Route, Standing};

@@ -1,0 +1,99 @@
+//! What a policy asks of a map, whatever represents it.
+
+use geometry::Point2;
+use pose::Se2;
+use posegraph::PoseGraph;
+use probe::{EdgeId, VertexId};
+use sensing::Scan;
+
+use crate::MapProbe;
+
+/// Where the robot believes that it stands: at a vertex, maybe turned.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Standing {
+    /// The vertex.
+    pub vertex: VertexId,
+    /// The body in the frame of the vertex; it only turns.
+    pub vertex_from_body: Se2,
+}
+
+/// A frontier that can be seen from where the robot stands.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Candidate {
+    /// The point to go to, in the body frame, metres.
+    pub goal_in_body: Point2,
+    /// Length of the frontier that hangs together there, metres.
+    pub length_m: f64,
+    /// Whether turning is enough to look behind it.
+    pub turn_only: bool,
+    /// A name that stays the same while the map does not change.
+    pub tag: u64,
+}
+
+/// What is left to explore, as the map believes.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Frontier {
+    /// Length of the frontier that counts, metres.
+    pub open_m: f64,
+    /// Length of the frontier that does not: slivers below the named length, and what could not be
+    /// reached, metres.
+    pub ignored_m: f64,
+    /// Volumes or cells that have frontier that counts.
+    pub places: usize,
+}
+
+/// How to get to the nearest frontier out of view.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Route {
+    /// By teach and repeat along the graph: the vertices in driving order, each with the length of
+    /// the link that leads to it, metres. Empty where the robot stands at the goal already.
+    Repeat(Vec<(VertexId, f64)>),
+    /// Straight legs through free space: points in the body frame of now.
+    Drive(Vec<Point2>),
+}
+
+/// A map of the plane that exploration runs on: fed with scans and graph events, asked for frontiers.
+///
+/// Points and goals are in the body frame of [`Standing`], so that no answer needs a global frame.
+pub trait ExplorationMap {
+    /// The name of the representation, as in configs and results: `relative`, `grid`, ...
+    fn kind(&self) -> &'static str;
+
+    /// An edge was added to `graph`; its vertices may have no scan yet.
+    fn edge_added(&mut self, graph: &PoseGraph, edge: EdgeId, probe: &mut dyn MapProbe);
+
+    /// A place edge of `graph` was withdrawn.
+    fn edge_withdrawn(&mut self, graph: &PoseGraph, edge: EdgeId, probe: &mut dyn MapProbe);
+
+    /// Poses of the graph were estimated anew: `map_from_vertex` by vertex.
+    fn poses_reestimated(&mut self, map_from_vertex: &[Se2], probe: &mut dyn MapProbe);
+
+    /// A scan was taken at a vertex, or after turning in place there.
+    fn scanned(&mut self, standing: &Standing, scan: &Scan, probe: &mut dyn MapProbe);
+
+    /// What is left to explore.
+    fn frontier(&self) -> Frontier;
+
+    /// The frontiers in view, in no particular order; `out` is overwritten.
+    fn in_view(&mut self, standing: &Standing, out: &mut Vec<Candidate>);
+
+    /// Distance from the straight motion `to_in_body` to the nearest known obstacle, metres, at most
+    /// `cap_m`; 0 where the motion leaves known free space.
+    fn clearance(&mut self, standing: &Standing, to_in_body: &Point2, cap_m: f64) -> f64;
+
+    /// The way to the nearest frontier, or `None` if none is left that can be reached.
+    fn route(&mut self, standing: &Standing, clearance_m: f64) -> Option<Route>;
+
+    /// The robot got as near to the frontier at `goal_in_body` as it may and looked, or found no way
+    /// to it at all: whatever frontier is left within `radius_m` of it does not count from now on.
+    fn give_up(
+        &mut self,
+        standing: &Standing,
+        goal_in_body: &Point2,
+        radius_m: f64,
+        probe: &mut dyn MapProbe,
+    );
+
+    /// Memory held, bytes.
+    fn bytes(&self) -> usize;
+}
