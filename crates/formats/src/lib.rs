@@ -1,1 +1,16 @@
 #![doc = include_str!("../README.md")]
+
+pub mod map_yaml;
+pub mod moving_ai;
+pub mod pgm;
+pub mod png;
+
+mod error;
+mod gray;
+mod lines;
+mod sniff;
+
+pub use error::{FormatError, MAX_CELLS, Position};
+pub use gray::GrayImage;
+pub use lines::text;
+pub use sniff::{Kind, sniff};
