@@ -1,1 +1,13 @@
 #![doc = include_str!("../README.md")]
+
+mod coverage;
+mod free_cells;
+mod traversal;
+mod verdict;
+mod view_fill;
+mod witness;
+
+pub use coverage::{Coverage, CoverageParams, Rule};
+pub use verdict::Verdict;
+pub use witness::Witness;
+pub use worlds::{Tally, View};
