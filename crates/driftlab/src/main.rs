@@ -1,1 +1,2 @@
+//! The `driftlab` command.
 fn main() {}

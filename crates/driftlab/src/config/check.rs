@@ -1,0 +1,203 @@
+//! Values that parse but make no sense: the ranges of the schema, and rules between keys.
+
+use serde_json::Value as Json;
+use toml::Value;
+
+use super::document::join;
+use super::load::properties_of;
+use super::schema::{properties, resolved, schema};
+use super::{Config, World};
+
+/// A value outside what its key allows.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Fault {
+    /// Dotted path of the key.
+    pub(super) path: String,
+    pub(super) found: String,
+    pub(super) expected: String,
+}
+
+/// Everything that is wrong with the values of a config, in no order.
+pub(super) fn faults(config: &Config) -> Vec<Fault> {
+    let mut faults = Vec::new();
+    between_keys(config, &mut faults);
+    if i64::try_from(config.seed).is_ok() {
+        match Value::try_from(config) {
+            Ok(value) => in_range(&value, schema(), "", &mut faults),
+            Err(error) => faults.push(fault("", error.to_string(), "a config".into())),
+        }
+    } else {
+        faults.push(fault("seed", config.seed.to_string(), format!("at most {}", i64::MAX)));
+    }
+    faults
+}
+
+fn fault(path: &str, found: String, expected: String) -> Fault {
+    Fault { path: path.to_owned(), found, expected }
+}
+
+fn in_range(value: &Value, node: &'static Json, path: &str, faults: &mut Vec<Fault>) {
+    let limits = node;
+    let node = resolved(node);
+    match value {
+        Value::Table(table) => {
+            let known = properties(node);
+            for (key, inner) in table {
+                if let Some(property) = known.iter().find(|property| property.key == key) {
+                    in_range(inner, property.node, &join(path, key), faults);
+                }
+            }
+        }
+        Value::Array(items) => {
+            let least = node["minItems"].as_u64().unwrap_or(0);
+            if (items.len() as u64) < least {
+                let expected = format!("at least {least} of them");
+                faults.push(fault(path, format!("{} entries", items.len()), expected));
+            }
+            let Some(child) = node.get("items") else { return };
+            // The whole list is named: an entry has no key of its own.
+            items.iter().for_each(|item| in_range(item, child, path, faults));
+        }
+        Value::Integer(number) => {
+            limited(*number as f64, &number.to_string(), limits, path, faults)
+        }
+        Value::Float(number) => limited(*number, &format!("{number:?}"), limits, path, faults),
+        _ => {}
+    }
+}
+
+fn limited(number: f64, shown: &str, node: &'static Json, path: &str, faults: &mut Vec<Fault>) {
+    let limit = |key: &str| node.get(key).and_then(Json::as_f64);
+    let (least, above) = (limit("minimum"), limit("exclusiveMinimum"));
+    let most = limit("maximum");
+    let fits = number.is_finite()
+        && least.is_none_or(|least| number >= least)
+        && above.is_none_or(|above| number > above)
+        && most.is_none_or(|most| number <= most);
+    if fits {
+        return;
+    }
+    let mut words = Vec::new();
+    if let Some(above) = above {
+        words.push(format!("above {above}"));
+    } else if let Some(least) = least {
+        words.push(format!("of at least {least}"));
+    }
+    if let Some(most) = most {
+        words.push(format!("at most {most}"));
+    }
+    let expected = if words.is_empty() {
+        "a finite number".to_owned()
+    } else {
+        format!("a number {}", words.join(" and "))
+    };
+    faults.push(fault(path, shown.to_owned(), expected));
+}
+
+fn between_keys(config: &Config, faults: &mut Vec<Fault>) {
+    if config.schema != 1 {
+        faults.push(fault("schema", config.schema.to_string(), "1".into()));
+    }
+    if !is_folder_name(&config.name) {
+        let expected = "letters, digits, `.`, `_` or `-`, not starting with `.` or `-`";
+        faults.push(fault("name", format!("{:?}", config.name), expected.into()));
+    }
+    if config.world.is_none() {
+        let kinds = properties_of("world").join(", ");
+        faults.push(fault("", "no world".into(), format!("exactly one table of {kinds}")));
+    }
+    let maps = config.map.keys();
+    if maps.is_empty() {
+        let kinds = properties_of("map").join(", ");
+        faults.push(fault("map", "no map".into(), format!("at least one table of {kinds}")));
+    }
+    let drive = config.compare.drive.as_str();
+    if drive != "each" && !maps.contains(&drive) {
+        let names: Vec<String> = maps.iter().map(|key| format!("\"{key}\"")).collect();
+        let expected = format!("\"each\" or a map of this config: {}", names.join(", "));
+        faults.push(fault("compare.drive", format!("{drive:?}"), expected));
+    }
+    match &config.world {
+        Some(World::Corridor(world)) if 2.0 * world.width_m >= world.side_m => {
+            let expected = format!("less than half of side_m = {}", world.side_m);
+            faults.push(fault("world.corridor.width_m", world.width_m.to_string(), expected));
+        }
+        Some(World::Rooms(world)) if world.door_m >= world.room_m => {
+            let expected = format!("less than room_m = {}", world.room_m);
+            faults.push(fault("world.rooms.door_m", world.door_m.to_string(), expected));
+        }
+        Some(World::Polygons(world)) => {
+            if let Some(block) = world.blocks.iter().find(|block| block.len() < 3) {
+                let found = format!("a block of {} corners", block.len());
+                faults.push(fault("world.polygons.blocks", found, "3 corners or more".into()));
+            }
+        }
+        _ => {}
+    }
+}
+
+/// Whether a name can be a folder of its own on every system.
+pub(super) fn is_folder_name(name: &str) -> bool {
+    let plain = |c: char| c.is_ascii_alphanumeric() || "._-".contains(c);
+    !name.is_empty() && name.chars().all(plain) && !name.starts_with(['.', '-'])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::{MazeWorld, PaperWorld, RelativeMap};
+    use super::*;
+
+    fn good() -> Config {
+        let mut config =
+            Config { world: Some(World::Paper(PaperWorld::default())), ..Config::default() };
+        config.map.relative = Some(RelativeMap::default());
+        config
+    }
+
+    fn paths(config: &Config) -> Vec<String> {
+        faults(config).into_iter().map(|fault| fault.path).collect()
+    }
+
+    #[test]
+    fn the_defaults_with_a_world_are_good() {
+        assert_eq!(faults(&good()), []);
+    }
+
+    #[test]
+    fn each_impossible_value_is_found_at_its_key() {
+        let mut config = good();
+        config.sensor.rays = 2;
+        config.sensor.fov_deg = 360.5;
+        config.odometry.scale = f64::NAN;
+        config.places.recall = 1.5;
+        config.name = "../up".into();
+        config.compare.drive = "grid".into();
+        config.world = Some(World::Maze(MazeWorld { columns: 0, ..MazeWorld::default() }));
+        let mut found = paths(&config);
+        found.sort();
+        let expected = [
+            "compare.drive",
+            "name",
+            "odometry.scale",
+            "places.recall",
+            "sensor.fov_deg",
+            "sensor.rays",
+            "world.maze.columns",
+        ];
+        assert_eq!(found, expected);
+    }
+
+    #[test]
+    fn a_seed_that_toml_cannot_write_is_refused() {
+        assert_eq!(paths(&Config { seed: u64::MAX, ..good() }), ["seed"]);
+    }
+
+    #[test]
+    fn a_full_circle_is_allowed_and_no_view_is_not() {
+        let mut config = good();
+        config.sensor.fov_deg = 360.0;
+        assert_eq!(faults(&config), []);
+        config.sensor.fov_deg = 0.0;
+        assert_eq!(faults(&config)[0].expected, "a number above 0 and at most 360");
+    }
+}

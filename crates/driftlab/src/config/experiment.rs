@@ -1,0 +1,87 @@
+//! The whole config of one experiment.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{Compare, Maps, Metrics, Odometry, Places, Planner, Record, Robot, Sensor, World};
+
+/// One experiment: a place, a robot in it, and the maps that it builds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Config {
+    /// Version of this file's layout; this driftlab reads 1.
+    #[schemars(range(min = 1, max = 1))]
+    pub schema: u32,
+    /// Name of the experiment and of its folder under recordings/: letters, digits, `.`, `_`, `-`.
+    /// Left out, it is the name of the file.
+    #[schemars(regex(pattern = r"^[A-Za-z0-9_][A-Za-z0-9._-]*$"))]
+    pub name: String,
+    /// Seed of every random stream; the same config, seed and program give the same numbers.
+    #[schemars(extend("maximum" = i64::MAX))]
+    pub seed: u64,
+    /// A run that has not ended after so many steps is stopped as "not complete".
+    #[schemars(range(min = 1))]
+    pub max_steps: u32,
+    /// Moves the start by up to this much along each axis, drawn evenly from the seed; metres.
+    #[schemars(range(min = 0.0))]
+    pub start_jitter_m: f64,
+    /// Where the robot starts; left out, the world's own start, or its most open place.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub start: Option<Start>,
+    /// The place: exactly one table, whose key says what kind of place it is.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub world: Option<World>,
+    /// The range sensor.
+    pub sensor: Sensor,
+    /// The noise of the wheels.
+    pub odometry: Odometry,
+    /// Place recognition.
+    pub places: Places,
+    /// The body, and how well it repeats a taught leg.
+    pub robot: Robot,
+    /// The maps that are built: at least one table.
+    pub map: Maps,
+    /// How the robot chooses where to go: exactly one table.
+    pub planner: Planner,
+    /// How several maps share the experiment.
+    pub compare: Compare,
+    /// How the belief is judged against the truth.
+    pub metrics: Metrics,
+    /// What the recording holds.
+    pub record: Record,
+}
+
+impl Default for Config {
+    fn default() -> Self {
+        Self {
+            schema: 1,
+            name: "run".into(),
+            seed: 1,
+            max_steps: 20_000,
+            start_jitter_m: 0.0,
+            start: None,
+            world: None,
+            sensor: Sensor::default(),
+            odometry: Odometry::default(),
+            places: Places::default(),
+            robot: Robot::default(),
+            map: Maps::default(),
+            planner: Planner::default(),
+            compare: Compare::default(),
+            metrics: Metrics::default(),
+            record: Record::default(),
+        }
+    }
+}
+
+/// Where the robot starts, in the world frame.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Start {
+    /// East of the world's origin, metres.
+    pub x_m: f64,
+    /// North of the world's origin, metres.
+    pub y_m: f64,
+    /// Heading, degrees counter-clockwise from east.
+    pub heading_deg: f64,
+}

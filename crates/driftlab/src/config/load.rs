@@ -1,0 +1,265 @@
+//! From a file and the command line to a checked config: defaults, file, `--world`, `--set`.
+
+use std::collections::BTreeMap;
+use std::path::{Path, PathBuf};
+
+use serde::Deserialize;
+use toml::Spanned;
+use toml::de::{DeTable, DeValue};
+
+use super::check::{Fault, faults, is_folder_name};
+use super::document::{Spans, VARIANTS, join, keep, lay_over, moved, spans, table_at};
+use super::explain::{explained, with_meaning};
+use super::schema::{properties, property_at};
+use super::source::Sources;
+use super::{Config, ConfigError, Origin, Place};
+
+/// What the command line lays over a config file.
+#[derive(Clone, Debug, Default)]
+pub struct Overrides {
+    /// `path=value` with a TOML value, in order.
+    pub sets: Vec<String>,
+    /// A map file that replaces the world, and the key of its kind: `image`, `map_server` or
+    /// `moving_ai`.
+    pub world: Option<(PathBuf, &'static str)>,
+}
+
+/// A checked config that remembers where each value came from.
+#[derive(Clone, Debug)]
+pub struct Loaded {
+    /// The config; its file names are as they were written.
+    pub config: Config,
+    /// The file, as it was named.
+    pub path: PathBuf,
+    spans: BTreeMap<String, Spans>,
+    sources: Sources,
+}
+
+impl Loaded {
+    /// Reads, merges and checks a config.
+    ///
+    /// Errors: the first thing wrong, in the order of the file.
+    pub fn read(path: &Path, overrides: &Overrides) -> Result<Self, ConfigError> {
+        let text = std::fs::read(path).and_then(|bytes| {
+            let invalid = |_| std::io::Error::other("it is not UTF-8 text");
+            String::from_utf8(bytes).map_err(invalid)
+        });
+        let text = text.map_err(|reason| ConfigError::Unreadable {
+            path: path.to_owned(),
+            reason,
+            expected: "a TOML config".into(),
+        })?;
+        Self::from_text(path, &text, overrides)
+    }
+
+    /// As [`read`](Self::read), from the text of the file.
+    pub fn from_text(path: &Path, text: &str, overrides: &Overrides) -> Result<Self, ConfigError> {
+        let mut sources = Sources::default();
+        let none = BTreeMap::new();
+
+        let base = sources.add_file(path, text.to_owned());
+        let parsed = DeTable::parse(text);
+        let parsed = parsed.map_err(|error| explained(&error, base, &sources, &none))?;
+        let root_span = parsed.span();
+        let mut document = parsed.into_inner();
+        one_variant_each(&document, &sources)?;
+        not_yet(&document, &sources)?;
+
+        let world_text = overrides.world.as_ref().map(|(file, kind)| world_text(file, kind));
+        if let (Some((file, kind)), Some(world_text)) = (&overrides.world, &world_text) {
+            let base = sources.add_world(file, world_text.clone());
+            let parsed = DeTable::parse(world_text);
+            let parsed = parsed.map_err(|error| explained(&error, base, &sources, &none))?;
+            // The start and everything but the parameters of this kind belong to the old world.
+            document.remove("start");
+            drop_file_keys(&mut document, kind);
+            lay_over(&mut document, moved(parsed.into_inner(), base));
+        }
+
+        for set in &overrides.sets {
+            let base = sources.add_set(set);
+            let parsed = DeTable::parse(set);
+            let parsed = parsed.map_err(|error| {
+                bare_word(set, base, &sources)
+                    .unwrap_or_else(|| explained(&error, base, &sources, &none))
+            })?;
+            if parsed.get_ref().is_empty() {
+                return Err(ConfigError::Value {
+                    place: sources.place(base..base + set.len()),
+                    found: "no assignment".into(),
+                    expected: "path=value, as in odometry.scale=0.5".into(),
+                });
+            }
+            let over = moved(parsed.into_inner(), base);
+            one_variant_each(&over, &sources)?;
+            not_yet(&over, &sources)?;
+            lay_over(&mut document, over);
+        }
+
+        let spans = spans(&document);
+        let parser = toml::de::Deserializer::from(Spanned::new(root_span, document));
+        let mut config =
+            Config::deserialize(parser).map_err(|error| explained(&error, 0, &sources, &spans))?;
+        if !spans.contains_key("name") {
+            config.name = name_of(path);
+        }
+        let loaded = Self { config, path: path.to_owned(), spans, sources };
+        match loaded.first(faults(&loaded.config)) {
+            Some(error) => Err(error),
+            None => Ok(loaded),
+        }
+    }
+
+    fn first(&self, faults: Vec<Fault>) -> Option<ConfigError> {
+        let standing = |fault: &Fault| {
+            let own = self.spans.get(&fault.path).map(|spans| spans.value.start);
+            own.unwrap_or(usize::MAX)
+        };
+        let fault = faults.into_iter().min_by_key(standing)?;
+        let missing = fault.path.is_empty() || fault.found.starts_with("no ");
+        let key = if missing { String::new() } else { format!(" for `{}`", fault.path) };
+        Some(ConfigError::Value {
+            place: self.place(&fault.path),
+            found: format!("{}{key}", fault.found),
+            expected: with_meaning(&fault.expected, &fault.path),
+        })
+    }
+
+    /// Where the value of a dotted key was written; for one that was not, its table or the file.
+    pub fn place(&self, path: &str) -> Place {
+        let mut path = path;
+        loop {
+            if let Some(spans) = self.spans.get(path) {
+                return self.sources.place(spans.value.clone());
+            }
+            match path.rsplit_once('.') {
+                Some((parent, _)) => path = parent,
+                None => return Place::file(&self.path),
+            }
+        }
+    }
+
+    /// Who gave the value of a dotted key.
+    pub fn origin(&self, path: &str) -> Origin {
+        match self.spans.get(path) {
+            Some(spans) => self.sources.origin(spans.value.start),
+            None => Origin::Default,
+        }
+    }
+
+    /// The config with the file names of its world made absolute: they are relative to the config.
+    pub fn anchored(&self) -> Config {
+        let folder = self.path.parent().unwrap_or(Path::new(""));
+        let folder = std::path::absolute(folder.join(".")).unwrap_or_else(|_| folder.to_owned());
+        let mut config = self.config.clone();
+        if let Some(world) = &mut config.world {
+            world.anchor_file(&folder);
+        }
+        config
+    }
+}
+
+fn world_text(file: &Path, kind: &str) -> String {
+    let absolute = std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
+    let key = if kind == "map_server" { "yaml" } else { "file" };
+    let quoted = toml::Value::String(absolute.to_string_lossy().into_owned());
+    format!("[world.{kind}]\n{key} = {quoted}\n")
+}
+
+fn drop_file_keys(document: &mut DeTable<'_>, kind: &str) {
+    let Some(world) = document.get_mut("world") else { return };
+    let DeValue::Table(variants) = world.get_mut() else { return };
+    keep(variants, |variant| variant == kind);
+    for (_, parameters) in variants.iter_mut() {
+        if let DeValue::Table(table) = parameters.get_mut() {
+            table.remove("file");
+            table.remove("yaml");
+        }
+    }
+}
+
+fn one_variant_each(document: &DeTable<'_>, sources: &Sources) -> Result<(), ConfigError> {
+    for name in VARIANTS {
+        let Some(table) = table_at(document, name) else { continue };
+        if let (true, Some(spans)) = (table.is_empty(), document.get(name).map(Spanned::span)) {
+            let kinds = properties_of(name).join(", ");
+            return Err(ConfigError::Value {
+                place: sources.place(spans),
+                found: format!("no table under [{name}]"),
+                expected: format!("exactly one of {kinds}"),
+            });
+        }
+        let mut keys: Vec<_> = table.iter().map(|(key, value)| (key, value.span())).collect();
+        keys.sort_by_key(|(key, _)| key.span().start);
+        if let [(first, _), (second, _), ..] = keys[..] {
+            let line = match sources.origin(first.span().start) {
+                Origin::File { line, .. } => format!(" of line {line}"),
+                _ => String::new(),
+            };
+            return Err(ConfigError::Value {
+                place: sources.place(second.span()),
+                found: format!("a second {name} `{name}.{second}`", second = second.get_ref()),
+                expected: format!(
+                    "exactly one table under [{name}], beside `{name}.{first}`{line} no other",
+                    first = first.get_ref()
+                ),
+            });
+        }
+    }
+    Ok(())
+}
+
+/// The keys under a top-level table, as `world.maze`.
+pub(super) fn properties_of(name: &str) -> Vec<String> {
+    let node = property_at(name).map(|property| property.node);
+    let all = node.map(properties).unwrap_or_default();
+    all.into_iter().map(|property| join(name, property.key)).collect()
+}
+
+/// Tables that a config of this layout may hold one day, and what to do meanwhile.
+const NOT_YET: [(&str, &str, &str); 2] = [
+    ("", "sweep", "no sweep: this version runs one config at a time; set the axes with --set"),
+    ("map", "grid_corrected", "relative or grid: this version does not correct a grid yet"),
+];
+
+fn not_yet(document: &DeTable<'_>, sources: &Sources) -> Result<(), ConfigError> {
+    for (parent, name, expected) in NOT_YET {
+        let table = if parent.is_empty() { Some(document) } else { table_at(document, parent) };
+        let Some((key, _)) = table.and_then(|table| table.get_key_value(name)) else { continue };
+        return Err(ConfigError::Value {
+            place: sources.place(key.span()),
+            found: format!("`{}`", join(parent, name)),
+            expected: expected.into(),
+        });
+    }
+    Ok(())
+}
+
+/// A word that somebody forgot to quote: `--set record.level=off`.
+fn bare_word(set: &str, base: usize, sources: &Sources) -> Option<ConfigError> {
+    let (path, value) = set.split_once('=')?;
+    let value = value.trim();
+    let plain = |c: char| c.is_ascii_alphanumeric() || "_-./".contains(c);
+    if !value.starts_with(|c: char| c.is_ascii_alphabetic() || c == '.' || c == '/')
+        || !value.chars().all(plain)
+    {
+        return None;
+    }
+    let start = base + set.find(value)?;
+    Some(ConfigError::Value {
+        place: sources.place(start..start + value.len()),
+        found: format!("the bare word {value}"),
+        expected: format!("a TOML value; text needs quotes: --set '{}=\"{value}\"'", path.trim()),
+    })
+}
+
+fn name_of(path: &Path) -> String {
+    let stem =
+        path.file_stem().map_or_else(String::new, |stem| stem.to_string_lossy().into_owned());
+    let name: String = stem
+        .chars()
+        .map(|c| if c.is_ascii_alphanumeric() || "._-".contains(c) { c } else { '-' })
+        .collect();
+    let name = name.trim_start_matches(['.', '-']).to_owned();
+    if is_folder_name(&name) { name } else { "run".into() }
+}

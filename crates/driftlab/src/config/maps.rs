@@ -1,0 +1,73 @@
+//! The maps: each table under `[map]` is one representation.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Which representations are built.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Maps {
+    /// Local polygons on a pose graph, consolidated relative to each other ([ISRR19] 4).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub relative: Option<RelativeMap>,
+    /// An occupancy grid in the frame of the odometry ([ISRR19] 6.2).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub grid: Option<GridMap>,
+}
+
+impl Maps {
+    /// The keys of the representations that are built, in the order in which they run.
+    pub fn keys(&self) -> Vec<&'static str> {
+        let all = [("relative", self.relative.is_some()), ("grid", self.grid.is_some())];
+        all.into_iter().filter(|(_, there)| *there).map(|(key, _)| key).collect()
+    }
+}
+
+/// Parameters of `[map.relative]`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct RelativeMap {
+    /// Polygons within this distance along the graph are compared, metres ([ISRR19] 4.3).
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub consolidation_radius_m: f64,
+    /// Two neighbouring samples are one wall if their ranges differ by less; metres ([ISRR19] 4.1).
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub occlusion_gap_m: f64,
+    /// Polygons are shrunk by this much before they free another's frontier, metres: else rounding
+    /// frees walls that both share.
+    #[schemars(range(min = 0.0))]
+    pub strict_margin_m: f64,
+    /// Frontier within this distance of a wall that is in scope is closed as wall, metres.
+    #[schemars(range(min = 0.0))]
+    pub wall_closing_m: f64,
+    /// A connected chain of frontier shorter than this is not worth a visit, metres.
+    #[schemars(range(min = 0.0))]
+    pub sliver_m: f64,
+}
+
+impl Default for RelativeMap {
+    fn default() -> Self {
+        Self {
+            consolidation_radius_m: 10.0,
+            occlusion_gap_m: 1.0,
+            strict_margin_m: 0.01,
+            wall_closing_m: 0.3,
+            sliver_m: 0.4,
+        }
+    }
+}
+
+/// Parameters of `[map.grid]`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct GridMap {
+    /// Side of a cell, metres.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub cell_m: f64,
+}
+
+impl Default for GridMap {
+    fn default() -> Self {
+        Self { cell_m: 1.0 }
+    }
+}

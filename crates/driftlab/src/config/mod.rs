@@ -1,0 +1,47 @@
+//! The config of an experiment: typed, checked, and able to say where each value came from.
+//!
+//! A config is a TOML file over built-in defaults, under `--world` and `--set`. Unknown keys and
+//! values out of range are refused with file, line and column. A choice between kinds is a table
+//! whose key is the kind (`[world.maze]`), so that a message points at the right line. Degrees are
+//! allowed here and nowhere below.
+//!
+//! | file | what |
+//! |---|---|
+//! | `experiment`, `world`, `robot`, `maps`, `planner`, `report` | the types and their defaults |
+//! | `load` | file and command line to a checked config |
+//! | `source`, `document` | texts, spans, merging |
+//! | `schema`, `check` | ranges, from the types' attributes; rules between keys |
+//! | `explain`, `error` | the messages |
+//! | `show` | resolved config with origins, annotated defaults |
+
+mod check;
+mod document;
+mod error;
+mod experiment;
+mod explain;
+mod load;
+mod maps;
+mod planner;
+mod report;
+mod robot;
+mod schema;
+mod show;
+mod source;
+#[cfg(test)]
+mod tests;
+mod world;
+
+pub use error::ConfigError;
+pub use experiment::{Config, Start};
+pub use load::{Loaded, Overrides};
+pub use maps::{GridMap, Maps, RelativeMap};
+pub use planner::{Planner, RapidPlanner, SurveyPlanner};
+pub use report::{Compare, Every, Level, Metrics, Record, Rule};
+pub use robot::{Odometry, Places, Robot, Sensor};
+pub use schema::{meaning, schema};
+pub use show::{defaults_toml, plain_toml, resolved_toml};
+pub use source::{Origin, Place};
+pub use world::{
+    CorridorWorld, ImageWorld, MapServerWorld, MazeWorld, MovingAiWorld, PaperMap, PaperWorld,
+    PillarsWorld, PolygonsWorld, RoomsWorld, ThesisMap, ThesisWorld, World,
+};

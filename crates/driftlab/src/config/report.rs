@@ -1,0 +1,104 @@
+//! How maps are compared, judged and recorded.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// How several maps share the experiment.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Compare {
+    /// "each": every map steers its own robot, which meets the same noise. Or the name of the map
+    /// that drives, while the others listen.
+    pub drive: String,
+}
+
+impl Default for Compare {
+    fn default() -> Self {
+        Self { drive: "each".into() }
+    }
+}
+
+/// How the belief is judged against the truth.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Metrics {
+    /// Side of the cells that coverage is counted in, metres.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub cell_m: f64,
+    /// When a cell counts as seen.
+    pub rule: Rule,
+}
+
+impl Default for Metrics {
+    fn default() -> Self {
+        Self { cell_m: 1.0, rule: Rule::Rays }
+    }
+}
+
+/// When a cell counts as seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Rule {
+    /// A ray touched it: the paper's rule.
+    Rays,
+    /// Its centre lay in the true view polygon: for cells finer than the spacing of the rays.
+    View,
+}
+
+/// What the recording holds.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Record {
+    /// How much is recorded.
+    pub level: Level,
+    /// Per family: record every n-th step only.
+    pub every: Every,
+}
+
+impl Default for Record {
+    fn default() -> Self {
+        Self { level: Level::Full, every: Every::default() }
+    }
+}
+
+/// How much is recorded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Level {
+    /// Nothing: no recording is written.
+    Off,
+    /// Per step: poses, the graph, labels, goals and the plots.
+    Summary,
+    /// Every event of every algorithm.
+    Full,
+}
+
+/// Per family of intermediates: record every n-th step only.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Every {
+    /// Rays, hits, misses, view polygons.
+    #[schemars(range(min = 1))]
+    pub sensing: u32,
+    /// Vertices, edges, the scope's shortest-path tree.
+    #[schemars(range(min = 1))]
+    pub pose_graph: u32,
+    /// Pairs, intervals relabelled, what remains frontier and why.
+    #[schemars(range(min = 1))]
+    pub consolidation: u32,
+    /// Cells changed.
+    #[schemars(range(min = 1))]
+    pub grid: u32,
+    /// State, candidates, goal, path.
+    #[schemars(range(min = 1))]
+    pub planner: u32,
+    /// True pose, coverage cells and the plots.
+    #[schemars(range(min = 1))]
+    pub truth: u32,
+}
+
+impl Default for Every {
+    fn default() -> Self {
+        Self { sensing: 1, pose_graph: 1, consolidation: 1, grid: 1, planner: 1, truth: 1 }
+    }
+}

@@ -1,0 +1,149 @@
+//! Loading as a whole: merging, origins, messages.
+
+use std::path::Path;
+
+use super::*;
+
+const MAZE: &str = "schema = 1\nseed = 7\n[world.paper]\nmap = \"maze\"\n[map.relative]\n";
+
+fn load(text: &str, sets: &[&str]) -> Result<Loaded, String> {
+    let overrides = Overrides { sets: sets.iter().map(|&set| set.into()).collect(), world: None };
+    Loaded::from_text(Path::new("dir/a.toml"), text, &overrides).map_err(|error| error.to_string())
+}
+
+fn message(text: &str, sets: &[&str]) -> String {
+    load(text, sets).map(|loaded| loaded.config).unwrap_err()
+}
+
+#[test]
+fn every_value_remembers_who_gave_it() {
+    let loaded = load(MAZE, &["odometry.scale=0.5", "map.grid.cell_m = 2"]).unwrap();
+    assert_eq!(loaded.config.odometry.scale, 0.5);
+    assert_eq!(loaded.config.map.keys(), ["relative", "grid"]);
+    assert_eq!(loaded.config.name, "a");
+    assert_eq!(loaded.origin("seed").to_string(), "dir/a.toml:2");
+    assert_eq!(loaded.origin("odometry.scale").to_string(), "--set odometry.scale=0.5");
+    assert_eq!(loaded.origin("sensor.rays"), Origin::Default);
+}
+
+#[test]
+fn the_resolved_text_means_the_same() {
+    let loaded = load(MAZE, &["planner.survey={}", "sensor.fov_deg=360"]).unwrap();
+    let again = load(&resolved_toml(&loaded), &[]).unwrap();
+    assert_eq!(again.config, loaded.config);
+    assert_eq!(load(&plain_toml(&loaded.config), &[]).unwrap().config, loaded.config);
+}
+
+#[test]
+fn the_defaults_page_is_a_config_of_defaults() {
+    let loaded = load(&defaults_toml(), &[]).unwrap();
+    let mut expected = Config { name: "defaults".into(), ..Config::default() };
+    expected.world = Some(World::Paper(PaperWorld::default()));
+    expected.map.relative = Some(RelativeMap::default());
+    assert_eq!(loaded.config, expected);
+    // Every commented table is right too: uncomment one at a time.
+    let page = defaults_toml();
+    let tables: Vec<&str> = page.split("\n\n").filter(|block| block.contains("\n# [")).collect();
+    assert!(tables.len() >= 10, "{}", tables.len());
+    for block in tables {
+        let body = block[block.find("\n# [").unwrap() + 1..].lines();
+        let live = body.filter_map(|line| {
+            line.strip_prefix("# ").filter(|l| l.starts_with('[') || l.contains(" = "))
+        });
+        let live = live.collect::<Vec<_>>().join("\n");
+        let others =
+            if live.starts_with("[world") { "[map.grid]" } else { "[world.paper]\n[map.relative]" };
+        load(&format!("{live}\n{others}"), &[]).unwrap_or_else(|error| panic!("{error}\n{live}"));
+    }
+}
+
+#[test]
+fn a_map_file_replaces_world_and_start_but_keeps_what_fits_it() {
+    let text =
+        "[start]\nx_m = 3\n[world.image]\nfile = \"old.png\"\nresolution_m = 0.1\n[map.grid]\n";
+    let overrides = Overrides { sets: vec![], world: Some(("/maps/new.pgm".into(), "image")) };
+    let loaded = Loaded::from_text(Path::new("a.toml"), text, &overrides).unwrap();
+    let image =
+        ImageWorld { file: "/maps/new.pgm".into(), resolution_m: 0.1, ..ImageWorld::default() };
+    assert_eq!(loaded.config.world, Some(World::Image(image)));
+    assert_eq!(loaded.config.start, None);
+    assert_eq!(loaded.origin("world.image.file").to_string(), "--world /maps/new.pgm");
+    assert_eq!(loaded.origin("world.image.resolution_m").to_string(), "a.toml:5");
+    let overrides = Overrides { sets: vec![], world: Some(("m.map".into(), "moving_ai")) };
+    let loaded = Loaded::from_text(Path::new("a.toml"), text, &overrides).unwrap();
+    assert!(matches!(loaded.config.world, Some(World::MovingAi(_))), "{:?}", loaded.config.world);
+}
+
+#[test]
+fn files_are_relative_to_the_config() {
+    let text = "[world.image]\nfile = \"floor.png\"\n[map.grid]\n";
+    let loaded = Loaded::from_text(Path::new("/etc/a.toml"), text, &Overrides::default()).unwrap();
+    let Some(World::Image(image)) = loaded.anchored().world else { panic!("no image") };
+    assert_eq!(image.file, Path::new("/etc/floor.png"));
+}
+
+/// Inputs with the message that each gets, as one page to read.
+fn page(cases: &[(&str, &[&str])]) -> String {
+    let mut page = String::new();
+    for (text, sets) in cases {
+        let shown = if sets.is_empty() { text.to_string() } else { format!("{sets:?}") };
+        page.push_str(&format!("{}\n--> {}\n\n", shown.trim_end(), message(text, sets)));
+    }
+    page
+}
+
+#[test]
+fn each_mistake_gets_one_message_at_its_place() {
+    let with = |more: &str| format!("{MAZE}{more}");
+    let (range, nan) =
+        (with("[sensor]\nrays = 1\nfov_deg = 400\n"), with("[odometry]\nscale = nan\n"));
+    let two = with("[world.maze]\ncolumns = 3\n");
+    let (sweep, corrected) = (with("[sweep]\nseeds = 3\n"), with("[map.grid_corrected]\n"));
+    let drive = with("[compare]\ndrive = \"grid\"\n");
+    insta::assert_snapshot!(page(&[
+        ("seed = 1\n[sensor]\nfov = 90\n", &[]),
+        ("[sensor]\nrange_m = \"far\"\n", &[]),
+        ("[sensor]\nrays = 5.5\n", &[]),
+        ("[sensor]\nrays = -3\n", &[]),
+        ("[record]\nlevel = \"loud\"\n", &[]),
+        ("[record]\nlevel = 3\n", &[]),
+        ("[record.every]\nplaner = 3\n", &[]),
+        ("sensor = 3\n", &[]),
+        (&range, &[]),
+        (&nan, &[]),
+        (&two, &[]),
+        ("[world]\n[map.grid]\n", &[]),
+        ("[world.lake]\n", &[]),
+        ("world = \"maze\"\n", &[]),
+        ("[world]\nmaze = 3\n", &[]),
+        ("map.relative = true\n", &[]),
+        ("[map.grid]\n", &[]),
+        ("[world.paper]\n", &[]),
+        ("[world.image]\nresolution_m = 0.1\n", &[]),
+        (&sweep, &[]),
+        (&corrected, &[]),
+        (&drive, &[]),
+        ("schema = 2\n", &[]),
+        ("seed = \n", &[]),
+        ("seed = 1\nseed = 2\n", &[]),
+        ("seed = 99999999999999999999\n", &[]),
+        ("[sensor\n", &[]),
+        ("name = \"../x\"\n[world.paper]\n[map.grid]\n", &[]),
+        ("[world.polygons]\noutline = [[0, 0], [1, 0]]\n[map.grid]", &[]),
+        ("[world.polygons]\noutline = [[0, 0, 1]]\n", &[]),
+        ("[world.corridor]\nside_m = 4\n[map.grid]\n", &[]),
+    ]));
+}
+
+#[test]
+fn each_mistake_of_the_command_line_gets_one_message_too() {
+    insta::assert_snapshot!(page(&[
+        (MAZE, &["odometry.scal=2"]),
+        (MAZE, &["odometry.scale=-2"]),
+        (MAZE, &["record.level=off"]),
+        (MAZE, &["odometry.scale"]),
+        (MAZE, &[""]),
+        (MAZE, &["sensor=3"]),
+        (MAZE, &["world.maze.rows=0"]),
+    ]));
+}
