@@ -3,8 +3,10 @@
 mod cells;
 mod error;
 pub mod paper;
+pub mod raster;
 mod robot;
 mod solid;
+pub mod start;
 mod world;
 
 pub use cells::CellMap;
