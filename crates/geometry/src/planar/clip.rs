@@ -3,10 +3,12 @@
 //! Exact predicates decide how many stretches there are and which edges end them; floats only
 //! measure where along the segment that is.
 
-use super::membership::{bounded, flushed, nearer_on_ray};
+use super::membership::{bounded, flushed};
 use super::{Interval, StarPolygon};
 use crate::Point2;
-use crate::predicates::{cross, cross_precise, orient, orient_precise, same_direction};
+use crate::predicates::{
+    cross, cross_precise, nearer_on_ray, orient, orient_precise, same_direction,
+};
 
 /// Below this share of the terms it is the difference of, a determinant is measured again, precisely.
 const ILL_CONDITIONED: f64 = 1e-2;

@@ -2,7 +2,7 @@
 
 use super::StarPolygon;
 use crate::Point2;
-use crate::predicates::{LARGEST, SMALLEST, cross, half_turn_or_more, orient};
+use crate::predicates::{LARGEST, SMALLEST, cross, half_turn_or_more, nearer_on_ray, orient};
 
 /// The sector of a direction: the bearings from vertex `index` to the next vertex.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -88,12 +88,6 @@ impl StarPolygon {
         let along = cross(&unit, &Point2::from(w - v));
         if along > 0.0 { cross(&v, &w) / along } else { v.x.hypot(v.y).min(w.x.hypot(w.y)) }
     }
-}
-
-/// Of two points exactly on one ray from the origin, whether the first is strictly nearer to it.
-#[inline]
-pub(super) fn nearer_on_ray(p: &Point2, v: &Point2) -> bool {
-    if v.x != 0.0 { p.x.abs() < v.x.abs() } else { p.y.abs() < v.y.abs() }
 }
 
 /// The point with coordinates below the envelope set to zero.

@@ -15,9 +15,9 @@ impl StarPolygon {
     /// no farther than its pull is dropped and its two edges become one gap. Edges keep their kind
     /// otherwise. A margin that is not positive returns a copy. O(n).
     ///
-    /// The inside of the result lies in this inside, at least the margin from the line of the chord
-    /// in whose wedge it lies (down to a fifth of it for chords seen at less than 11.5 degrees);
-    /// spokes do not recede.
+    /// The inside of the result lies in this inside (but for the rounding of the bearings beside
+    /// gaps: spokes do not recede). It keeps the margin to the line of the chord in whose wedge it
+    /// lies, times `5 sin(angle between ray and chord)` at chords seen at less than 11.5 degrees.
     pub fn shrunk(&self, margin_m: f64) -> Self {
         if margin_m <= 0.0 || margin_m.is_nan() {
             return self.clone();

@@ -16,7 +16,7 @@ mod bearing;
 mod orientation;
 mod precise;
 
-pub(crate) use bearing::half_turn_or_more;
-pub use bearing::{compare_bearing_from, same_direction};
+pub use bearing::{compare_bearing_from, same_direction, sort_by_bearing};
+pub(crate) use bearing::{half_turn_or_more, nearer_on_ray};
 pub use orientation::{LARGEST, SMALLEST, cross, cross_sign, in_envelope, orient, sign};
 pub use precise::{cross_precise, orient_precise};
