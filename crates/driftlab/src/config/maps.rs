@@ -43,6 +43,25 @@ pub struct RelativeMap {
     /// A connected chain of frontier shorter than this is not worth a visit, metres.
     #[schemars(range(min = 0.0))]
     pub sliver_m: f64,
+    /// Take volumes that add nothing out of later comparisons; no frontier changes by it.
+    pub retire: bool,
+    /// When two neighbouring hits belong to different things.
+    pub occlusion: Occlusion,
+    /// Put a frontier vertex into the middle of each edge that spans an occlusion ([Zie18] 2.4).
+    pub insert_occlusion_vertex: bool,
+    /// Drop hits closer than this to the hit kept before, metres; 0 keeps all ([Zie18] 2.4).
+    #[schemars(range(min = 0.0))]
+    pub thin_m: f64,
+}
+
+/// When two neighbouring hits belong to different things.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Occlusion {
+    /// Their ranges differ by the gap or more ([ISRR19] 4.1).
+    Range,
+    /// Their forward coordinates differ by more than the gap, and only in one sense ([Zie18] 2.4).
+    ForwardSigned,
 }
 
 impl Default for RelativeMap {
@@ -53,6 +72,10 @@ impl Default for RelativeMap {
             strict_margin_m: 0.01,
             wall_closing_m: 0.3,
             sliver_m: 0.4,
+            retire: true,
+            occlusion: Occlusion::Range,
+            insert_occlusion_vertex: false,
+            thin_m: 0.0,
         }
     }
 }

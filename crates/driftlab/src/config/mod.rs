@@ -34,7 +34,7 @@ mod world;
 pub use error::ConfigError;
 pub use experiment::{Config, Start};
 pub use load::{Loaded, Overrides};
-pub use maps::{GridMap, Maps, RelativeMap};
+pub use maps::{GridMap, Maps, Occlusion, RelativeMap};
 pub use planner::{Planner, RapidPlanner, SurveyPlanner};
 pub use report::{Compare, Every, Level, Metrics, Record, Rule};
 pub use robot::{Odometry, Places, Robot, Sensor};

@@ -41,11 +41,9 @@ pub struct Odometry {
     /// Factor on both: the paper's α.
     #[schemars(range(min = 0.0))]
     pub scale: f64,
-    /// The robot really drives so much further than it is told; m/m. Not scaled.
-    pub bias_forward: f64,
-    /// The robot really drifts so much to the left; m/m. Not scaled.
-    pub bias_left: f64,
-    /// The robot really turns so much to the left; degrees/m. Not scaled.
+    /// Mean error along the heading, metres per metre; scaled as well.
+    pub bias_translation: f64,
+    /// Mean error of the heading, degrees per metre, to the left; scaled as well.
     pub bias_rotation: f64,
 }
 
@@ -55,8 +53,7 @@ impl Default for Odometry {
             sigma_translation: 0.1,
             sigma_rotation: 5.0,
             scale: 1.0,
-            bias_forward: 0.0,
-            bias_left: 0.0,
+            bias_translation: 0.0,
             bias_rotation: 0.0,
         }
     }
@@ -71,7 +68,7 @@ pub struct Places {
     /// A known pose that is truly nearer than this and in line of sight is recognised; metres.
     #[schemars(range(min = 0.0))]
     pub radius_m: f64,
-    /// A pose is not matched with those within this many radii of it along the graph.
+    /// A known pose within this many radii along the graph is no news and is not matched.
     #[schemars(range(min = 0.0))]
     pub exclude_factor: f64,
     /// Share of the places that are recognised.
@@ -86,6 +83,8 @@ pub struct Places {
     /// Standard deviation of a match's relative heading, degrees; 0 is exact.
     #[schemars(range(min = 0.0))]
     pub sigma_rotation_deg: f64,
+    /// At most so many matches per pose, the nearest first; 0 is all, as in the paper.
+    pub max_matches: u32,
 }
 
 impl Default for Places {
@@ -98,11 +97,14 @@ impl Default for Places {
             false_positive_rate: 0.0,
             sigma_translation_m: 0.0,
             sigma_rotation_deg: 0.0,
+            max_matches: 0,
         }
     }
 }
 
 /// The body, and how well it repeats a taught leg.
+///
+/// A taught leg is not driven through but jumped, and its length is charged ([Zie18] 3.1).
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Robot {
@@ -119,6 +121,4 @@ pub struct Robot {
     /// never.
     #[schemars(range(min = 0.0))]
     pub snap_radius_m: f64,
-    /// The robot jumps along the graph instead of driving ([Zie18] 3.1); the way is charged.
-    pub teleport: bool,
 }
