@@ -1,6 +1,10 @@
 #![doc = include_str!("../README.md")]
 
-mod se2;
+mod covariance;
+mod group;
+mod jacobians;
+mod tangent;
 
+pub use covariance::{covariance_of_compose, covariance_of_inverse};
+pub use group::{Se2, wrap_angle};
 pub use nalgebra;
-pub use se2::{Se2, wrap_angle};

@@ -87,11 +87,18 @@ impl Mul for Se2 {
     }
 }
 
-/// The same angle in (-π, π].
+/// The same direction as an angle in (-π, π]; exact for the `f64` nearest to a full turn.
 pub fn wrap_angle(angle_rad: f64) -> f64 {
-    let turn = std::f64::consts::TAU;
-    let wrapped = angle_rad - turn * (angle_rad / turn).round();
-    if wrapped <= -std::f64::consts::PI { wrapped + turn } else { wrapped }
+    use std::f64::consts::{PI, TAU};
+    // The remainder and both differences are free of rounding.
+    let rest = angle_rad % TAU;
+    if rest > PI {
+        rest - TAU
+    } else if rest <= -PI {
+        rest + TAU
+    } else {
+        rest
+    }
 }
 
 /// The 3 × 3 homogeneous matrix of a motion.

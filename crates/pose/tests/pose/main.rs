@@ -1,0 +1,8 @@
+//! SE(2) against oracles that share nothing with it: matrix exponential, matrix products,
+//! central differences, sampled errors.
+
+mod covariance;
+mod group;
+mod jacobians;
+mod oracle;
+mod tangent;
