@@ -2,6 +2,7 @@
 
 mod events;
 mod map;
+pub mod grid;
 pub mod relative;
 pub mod volume;
 

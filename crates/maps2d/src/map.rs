@@ -20,8 +20,9 @@ pub struct Standing {
 /// A frontier that can be seen from where the robot stands.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Candidate {
-    /// The point to go to, in the body frame, metres.
-    pub goal_in_body: Point2,
+    /// Points to go to, in the body frame, metres: the best first, the others for where it cannot
+    /// be reached.
+    pub goals_in_body: [Point2; 3],
     /// Length of the frontier that hangs together there, metres.
     pub length_m: f64,
     /// Whether turning is enough to look behind it.

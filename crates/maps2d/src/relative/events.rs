@@ -24,8 +24,6 @@ pub enum Cause {
 pub enum ReopenCause {
     /// The place edge that the closing relied on was withdrawn.
     EdgeWithdrawn(EdgeId),
-    /// The volume that closed it was replaced by one with more scans.
-    VolumeReplaced(VertexId),
 }
 
 /// Steps of frontier consolidation ([ISRR19] 4.3).

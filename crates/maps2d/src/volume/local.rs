@@ -4,6 +4,7 @@ use std::fmt;
 
 use geometry::Point2;
 use geometry::planar::StarPolygon;
+use geometry::planar::{point_segment_distance, segment_segment_distance};
 
 /// Which boundary edge of a volume: a chord, or one of the two spokes of a gap.
 ///
@@ -70,6 +71,17 @@ pub struct LocalVolume {
 }
 
 impl LocalVolume {
+    /// A view of nothing.
+    pub fn empty() -> Self {
+        Self {
+            polygon: StarPolygon::empty(),
+            inner: StarPolygon::empty(),
+            frontier: Vec::new(),
+            obstacles: Vec::new(),
+            posts: Vec::new(),
+        }
+    }
+
     /// Whether frontier edge `i` ends where the next one in boundary order starts.
     pub fn continues(&self, i: usize) -> bool {
         let next = if i + 1 == self.frontier.len() { 0 } else { i + 1 };
@@ -79,6 +91,25 @@ impl LocalVolume {
     /// An upper bound of the distance of any boundary point from the anchor, metres.
     pub fn radius_m(&self) -> f64 {
         self.polygon.outer_radius()
+    }
+
+    /// How near the straight motion from the anchor to `to_in_anchor` comes to what is solid here,
+    /// metres, at most `cap_m`; 0 where the motion leaves the view.
+    pub fn motion_clearance(&self, to_in_anchor: &Point2, cap_m: f64) -> f64 {
+        let reach_m = self.polygon.radius_towards(to_in_anchor);
+        if to_in_anchor.coords.norm() > reach_m + 1e-9 {
+            return 0.0;
+        }
+        let origin = Point2::origin();
+        let mut least_m = cap_m;
+        for wall in &self.obstacles {
+            let apart_m = segment_segment_distance(&origin, to_in_anchor, &wall.from, &wall.to);
+            least_m = least_m.min(apart_m);
+        }
+        for post in &self.posts {
+            least_m = least_m.min(point_segment_distance(post, &origin, to_in_anchor));
+        }
+        least_m
     }
 
     /// Memory held on the heap, bytes.

@@ -1,0 +1,109 @@
+//! What a policy asks: frontiers in view, clearance, the way to the next frontier.
+
+use geometry::Point2;
+
+use super::{Chain, RelativeMap, VolumeState};
+use crate::{Candidate, MapProbe, Route, Standing};
+
+/// Where along a run of frontier a goal is put: the middle first, then the quarters.
+const GOAL_SHARES: [f64; 3] = [0.5, 0.25, 0.75];
+
+impl RelativeMap {
+    /// One candidate for each run of frontier in the volume that the robot stands on.
+    pub(super) fn candidates(&self, standing: &Standing, out: &mut Vec<Candidate>) {
+        out.clear();
+        let Some(state) = self.volume(standing.vertex) else { return };
+        for (tag, chain) in state.counting_chains(self.params.sliver_m).enumerate() {
+            for spoke in [true, false] {
+                let run = Run::of(state, chain, spoke);
+                // A short end of a chain is seen on the way to the rest of it.
+                if run.length_m < 0.5 * self.params.sliver_m.min(chain.length_m) {
+                    continue;
+                }
+                let goals = GOAL_SHARES.map(|share| {
+                    standing.vertex_from_body.inverse_transform(&run.at(share))
+                });
+                out.push(Candidate {
+                    goals_in_body: goals,
+                    length_m: run.length_m,
+                    turn_only: spoke,
+                    tag: 2 * tag as u64 + u64::from(spoke),
+                });
+            }
+        }
+    }
+
+    /// How near the straight motion from the anchor comes to what is solid in the volume there.
+    ///
+    /// Only the volume that the robot stands on is asked: it is the one without drift.
+    pub(super) fn motion_clearance(
+        &self,
+        standing: &Standing,
+        to_in_body: &Point2,
+        cap_m: f64,
+    ) -> f64 {
+        let Some(state) = self.volume(standing.vertex) else { return 0.0 };
+        state.volume.motion_clearance(&standing.vertex_from_body.transform(to_in_body), cap_m)
+    }
+
+    /// The way along the graph to the nearest vertex with frontier that counts ([ISRR19] 5).
+    pub(super) fn way_to_frontier(&mut self, standing: &Standing) -> Option<Route> {
+        if self.totals.places == 0 {
+            return None;
+        }
+        let volumes = &self.volumes;
+        let way = self.scratch.way_to_nearest(&self.skeleton, standing.vertex, |vertex| {
+            volumes.get(vertex).and_then(Option::as_deref).is_some_and(VolumeState::counts)
+        })?;
+        Some(Route::Repeat(way))
+    }
+
+    pub(super) fn give_up_near(
+        &mut self,
+        standing: &Standing,
+        goal_in_body: &Point2,
+        radius_m: f64,
+        probe: &mut dyn MapProbe,
+    ) {
+        let place = standing.vertex_from_body.transform(goal_in_body);
+        let Some(state) = self.volumes[standing.vertex].as_deref_mut() else { return };
+        state.given_up.push((place, radius_m));
+        self.compare_with_scope(standing.vertex, probe);
+    }
+}
+
+/// The parts of a chain that are all spokes, or all chords, laid end to end.
+struct Run {
+    parts: Vec<(Point2, Point2, f64)>,
+    length_m: f64,
+}
+
+impl Run {
+    fn of(state: &VolumeState, chain: &Chain, spoke: bool) -> Self {
+        let parts: Vec<(Point2, Point2, f64)> = chain
+            .parts
+            .iter()
+            .filter(|part| state.volume.frontier[part.edge].spoke == spoke)
+            .map(|part| {
+                let edge = &state.volume.frontier[part.edge];
+                (edge.at(part.span.from), edge.at(part.span.to), part.length_m)
+            })
+            .collect();
+        let length_m = parts.iter().map(|part| part.2).sum();
+        Self { parts, length_m }
+    }
+
+    /// The point at a share of the length.
+    fn at(&self, share: f64) -> Point2 {
+        let mut left_m = share * self.length_m;
+        let mut end = Point2::origin();
+        for (from, to, length_m) in &self.parts {
+            if left_m <= *length_m && *length_m > 0.0 {
+                return from + (to - from) * (left_m / length_m);
+            }
+            left_m -= length_m;
+            end = *to;
+        }
+        end
+    }
+}

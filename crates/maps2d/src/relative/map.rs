@@ -1,0 +1,191 @@
+//! The relative map and its answers to the map trait.
+
+use geometry::Point2;
+use pose::Se2;
+use posegraph::{PoseGraph, Scope, ScopeScratch, Skeleton};
+use probe::{EdgeId, IdVec, VertexId};
+use sensing::Scan;
+
+use super::{ConsolidationEvent, PathBook, RelativeParams, VolumeState};
+use crate::{Candidate, ExplorationMap, Frontier, MapProbe, Route, Standing};
+
+/// Local volumes on a pose graph, with consolidated frontiers ([ISRR19] 4).
+///
+/// Volumes are kept in the frames of their own vertices; no global frame exists.
+#[derive(Clone, Debug)]
+pub struct RelativeMap {
+    pub(super) params: RelativeParams,
+    pub(super) volumes: IdVec<VertexId, Option<Box<VolumeState>>>,
+    pub(super) skeleton: Skeleton,
+    pub(super) book: PathBook,
+    /// The scope taken last; valid while its root and the skeleton are what they were.
+    pub(super) scope: Scope,
+    pub(super) scope_is_fresh: bool,
+    pub(super) scratch: ScopeScratch,
+    pub(super) totals: Totals,
+    /// How many scans were taken.
+    pub(super) scans: u32,
+    /// Where the robot stood when it took the last one.
+    pub(super) stood: Option<VertexId>,
+    pub(super) work: super::pair::Work,
+}
+
+/// Sums over all volumes, kept up to date as ledgers change.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub(super) struct Totals {
+    pub open_m: f64,
+    pub sliver_m: f64,
+    pub unreachable_m: f64,
+    pub places: usize,
+}
+
+impl Totals {
+    pub fn add(&mut self, state: &VolumeState) {
+        self.open_m += state.open_m;
+        self.sliver_m += state.sliver_m;
+        self.unreachable_m += state.unreachable_m;
+        self.places += usize::from(state.counts());
+    }
+
+    pub fn remove(&mut self, state: &VolumeState) {
+        self.open_m -= state.open_m;
+        self.sliver_m -= state.sliver_m;
+        self.unreachable_m -= state.unreachable_m;
+        self.places -= usize::from(state.counts());
+    }
+}
+
+impl RelativeMap {
+    /// A map of nothing.
+    pub fn new(params: RelativeParams) -> Self {
+        Self {
+            params,
+            volumes: IdVec::new(),
+            skeleton: Skeleton::new(2.0 * params.consolidation_radius_m),
+            book: PathBook::default(),
+            scope: Scope::default(),
+            scope_is_fresh: false,
+            scratch: ScopeScratch::default(),
+            totals: Totals::default(),
+            scans: 0,
+            stood: None,
+            work: super::pair::Work::default(),
+        }
+    }
+
+    /// What was chosen for this map.
+    pub fn params(&self) -> &RelativeParams {
+        &self.params
+    }
+
+    /// The volume on a vertex, with its ledgers; `None` where no scan was taken.
+    pub fn volume(&self, vertex: VertexId) -> Option<&VolumeState> {
+        self.volumes.get(vertex)?.as_deref()
+    }
+
+    /// All volumes with their vertices, retired ones included.
+    pub fn volumes(&self) -> impl Iterator<Item = (VertexId, &VolumeState)> {
+        self.volumes.iter_ids().filter_map(|(vertex, state)| Some((vertex, state.as_deref()?)))
+    }
+
+    /// Number of volumes that take part in comparisons.
+    pub fn active_count(&self) -> usize {
+        self.volumes().count() - self.skeleton.retired_count()
+    }
+
+    /// The scope taken last ([ISRR19] 4.3).
+    pub fn scope(&self) -> &Scope {
+        &self.scope
+    }
+
+    /// The graph that placement walks.
+    pub fn skeleton(&self) -> &Skeleton {
+        &self.skeleton
+    }
+
+    /// The paths that closings relied on.
+    pub fn book(&self) -> &PathBook {
+        &self.book
+    }
+
+    /// Gathers the scope of `root` unless that is the one at hand.
+    pub(super) fn take_scope(&mut self, root: VertexId, probe: &mut dyn MapProbe) {
+        if self.scope_is_fresh && self.scope.root() == Some(root) {
+            return;
+        }
+        let radius_m = self.params.consolidation_radius_m;
+        self.scratch.place(&self.skeleton, root, radius_m, &mut self.scope);
+        self.scope_is_fresh = true;
+        if probe::Probe::<ConsolidationEvent<'_>>::on(probe) {
+            probe.emit(ConsolidationEvent::ScopeTaken {
+                scope: &self.scope,
+                skeleton: &self.skeleton,
+            });
+        }
+    }
+}
+
+impl ExplorationMap for RelativeMap {
+    fn kind(&self) -> &'static str {
+        "relative"
+    }
+
+    fn edge_added(&mut self, graph: &PoseGraph, edge: EdgeId, probe: &mut dyn MapProbe) {
+        self.take_edge(graph, edge, probe);
+    }
+
+    fn edge_withdrawn(&mut self, graph: &PoseGraph, edge: EdgeId, probe: &mut dyn MapProbe) {
+        self.withdraw(graph, edge, probe);
+    }
+
+    /// Relative placement does not look at global estimates: nothing changes.
+    fn poses_reestimated(&mut self, _map_from_vertex: &[Se2], _probe: &mut dyn MapProbe) {}
+
+    fn scanned(&mut self, standing: &Standing, scan: &Scan, probe: &mut dyn MapProbe) {
+        self.insert(standing, scan, probe);
+        if probe::Probe::<ConsolidationEvent<'_>>::on(probe) {
+            probe.emit(ConsolidationEvent::Settled { map: self, standing: standing.vertex });
+        }
+    }
+
+    fn frontier(&self) -> Frontier {
+        // Sums of many additions and subtractions end a hair off zero; the count does not.
+        let places = self.totals.places;
+        Frontier {
+            open_m: if places == 0 { 0.0 } else { self.totals.open_m.max(0.0) },
+            ignored_m: (self.totals.sliver_m + self.totals.unreachable_m).max(0.0),
+            places,
+        }
+    }
+
+    fn in_view(&mut self, standing: &Standing, out: &mut Vec<Candidate>) {
+        self.candidates(standing, out);
+    }
+
+    fn clearance(&mut self, standing: &Standing, to_in_body: &Point2, cap_m: f64) -> f64 {
+        self.motion_clearance(standing, to_in_body, cap_m)
+    }
+
+    fn route(&mut self, standing: &Standing, _clearance_m: f64) -> Option<Route> {
+        self.way_to_frontier(standing)
+    }
+
+    fn give_up(
+        &mut self,
+        standing: &Standing,
+        goal_in_body: &Point2,
+        radius_m: f64,
+        probe: &mut dyn MapProbe,
+    ) {
+        self.give_up_near(standing, goal_in_body, radius_m, probe);
+    }
+
+    fn bytes(&self) -> usize {
+        let volumes: usize = self
+            .volumes()
+            .map(|(_, state)| size_of::<VolumeState>() + state.heap_bytes())
+            .sum();
+        volumes + self.volumes.len() * size_of::<usize>() + self.book.heap_bytes()
+            + self.skeleton.heap_bytes()
+    }
+}

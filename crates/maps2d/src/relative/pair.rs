@@ -1,0 +1,209 @@
+//! Two volumes held against each other: frontier of one inside the other is closed ([ISRR19] 4.3).
+
+use geometry::planar::Interval;
+use pose::Se2;
+use probe::VertexId;
+
+use super::walls::{spans_along_walls, spans_given_up};
+use super::{Cause, Closing, ConsolidationEvent, RelativeMap, VolumeState};
+use crate::MapProbe;
+use crate::volume::LocalVolume;
+
+/// Memory that comparisons reuse.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Work {
+    /// Pairs to compare: rows of the scope, the volume whose frontier is looked at first.
+    pub pairs: Vec<(u32, u32)>,
+    /// Parts to close: frontier edge and stretch.
+    spans: Vec<(usize, Interval)>,
+    clipped: Vec<Interval>,
+    newly: Vec<Interval>,
+    touched: Vec<(VertexId, VertexId)>,
+}
+
+impl RelativeMap {
+    /// Compares the pairs in `self.work.pairs`, over the rows of the scope at hand.
+    ///
+    /// First everything that lies inside the other volume is closed, over all pairs; then what is
+    /// left along walls, then what could not be reached. So "free" is preferred as a reason.
+    pub(super) fn consolidate(&mut self, probe: &mut dyn MapProbe) {
+        let pairs = std::mem::take(&mut self.work.pairs);
+        self.work.touched.clear();
+        for cause in [Cause::Inside, Cause::Wall, Cause::Unreachable] {
+            for &(target, source) in &pairs {
+                self.compare(target as usize, source as usize, cause, probe);
+            }
+        }
+        self.work.pairs = pairs;
+        self.measure_touched();
+    }
+
+    /// Measures the volumes whose ledgers changed, and credits those that closed what counted.
+    fn measure_touched(&mut self) {
+        let mut touched = std::mem::take(&mut self.work.touched);
+        touched.sort_unstable();
+        touched.dedup();
+        let mut i = 0;
+        while i < touched.len() {
+            let vertex = touched[i].0;
+            let end = touched[i..].iter().take_while(|(v, _)| *v == vertex).count() + i;
+            let counted_less = self.remeasure(vertex);
+            if counted_less {
+                for &(_, by) in &touched[i..end] {
+                    if by != vertex && let Some(state) = self.volumes[by].as_deref_mut() {
+                        state.closed_others = true;
+                    }
+                }
+            }
+            i = end;
+        }
+        self.work.touched = touched;
+    }
+
+    /// Measures one volume anew; returns whether less of its frontier counts than before.
+    pub(super) fn remeasure(&mut self, vertex: VertexId) -> bool {
+        let sliver_m = self.params.sliver_m;
+        let Some(state) = self.volumes[vertex].as_deref_mut() else { return false };
+        self.totals.remove(state);
+        let before_m = state.open_m;
+        state.measure(sliver_m);
+        self.totals.add(state);
+        state.open_m < before_m
+    }
+
+    /// Closes what of the open frontier of row `target` the volume of row `source` accounts for.
+    fn compare(&mut self, target: usize, source: usize, cause: Cause, probe: &mut dyn MapProbe) {
+        let rows = self.scope.placed();
+        let (at, against) = (rows[target].vertex, rows[source].vertex);
+        let at_from_against =
+            rows[target].root_from_vertex.inverse_mul(&rows[source].root_from_vertex);
+        if at == against && cause != Cause::Unreachable {
+            return;
+        }
+        if !self.volumes[at].as_deref().is_some_and(VolumeState::has_open) {
+            return;
+        }
+        // The volume at hand is taken out of the map while the other is read.
+        let Some(mut state) = self.volumes[at].take() else { return };
+        let own;
+        let other = if at == against {
+            own = state.clone();
+            Some(&own)
+        } else {
+            self.volumes[against].as_ref()
+        };
+        if let Some(other) = other {
+            let mut spans = std::mem::take(&mut self.work.spans);
+            spans.clear();
+            match cause {
+                Cause::Inside => spans_inside(
+                    &state,
+                    &other.volume,
+                    &at_from_against,
+                    &mut self.work.clipped,
+                    &mut spans,
+                ),
+                Cause::Wall => spans_along_walls(
+                    &state,
+                    &other.volume,
+                    &at_from_against,
+                    self.params.wall_closing_m,
+                    &mut spans,
+                ),
+                Cause::Unreachable => {
+                    spans_given_up(&state, &other.given_up, &at_from_against, &mut spans);
+                }
+            }
+            self.close(&mut state, target, source, cause, &at_from_against, &spans, probe);
+            self.work.spans = spans;
+        }
+        self.volumes[at] = Some(state);
+    }
+
+    /// Writes stretches into the ledgers of `state`, remembers the path, and tells.
+    #[expect(clippy::too_many_arguments, reason = "one call site; the parts of one comparison")]
+    fn close(
+        &mut self,
+        state: &mut VolumeState,
+        target: usize,
+        source: usize,
+        cause: Cause,
+        at_from_against: &Se2,
+        spans: &[(usize, Interval)],
+        probe: &mut dyn MapProbe,
+    ) {
+        let rows = self.scope.placed();
+        let (at, by) = (rows[target].vertex, rows[source].vertex);
+        let on = probe::Probe::<ConsolidationEvent<'_>>::on(probe);
+        let mut closing: Option<Closing> = None;
+        let mut closed_m = 0.0;
+        for &(edge, span) in spans {
+            let ledger = &mut state.ledgers[edge];
+            if !ledger.open().any(|open| open.overlap(&span).is_some()) {
+                continue;
+            }
+            let reason = *closing.get_or_insert_with(|| {
+                let edges = self.scope.path_between(&self.skeleton, target, source);
+                Closing { cause, by, step: self.scans, path: self.book.remember(at, edges) }
+            });
+            self.work.newly.clear();
+            ledger.close(span, &reason, &mut self.work.newly);
+            let length_m = state.volume.frontier[edge].length_m();
+            for newly in &self.work.newly {
+                closed_m += newly.share() * length_m;
+                if on {
+                    probe.emit(ConsolidationEvent::Closed {
+                        volume: at,
+                        edge: &state.volume.frontier[edge],
+                        span: *newly,
+                        cause,
+                        by,
+                        path: self.book.edges(reason.path),
+                    });
+                }
+            }
+        }
+        if closing.is_some() {
+            self.work.touched.push((at, by));
+        }
+        if on && (cause == Cause::Inside || closed_m > 0.0) {
+            probe.emit(ConsolidationEvent::PairCompared {
+                volume: at,
+                against: by,
+                volume_from_against: *at_from_against,
+                closed_m,
+            });
+        }
+    }
+}
+
+/// The stretches of open frontier of `state` that lie strictly inside `other`.
+///
+/// Whole edges are clipped, not their open parts, so that a stretch does not depend on what was
+/// closed before.
+fn spans_inside(
+    state: &VolumeState,
+    other: &LocalVolume,
+    at_from_other: &Se2,
+    clipped: &mut Vec<Interval>,
+    spans: &mut Vec<(usize, Interval)>,
+) {
+    let reach_m = state.volume.radius_m() + other.inner.outer_radius();
+    if at_from_other.translation.norm_squared() > reach_m * reach_m {
+        return;
+    }
+    let other_from_at = at_from_other.inverse();
+    for (edge, ledger) in state.ledgers.iter().enumerate() {
+        if ledger.is_closed() {
+            continue;
+        }
+        let frontier = &state.volume.frontier[edge];
+        clipped.clear();
+        other.inner.clip(
+            &other_from_at.transform(&frontier.from),
+            &other_from_at.transform(&frontier.to),
+            clipped,
+        );
+        spans.extend(clipped.iter().map(|&span| (edge, span)));
+    }
+}

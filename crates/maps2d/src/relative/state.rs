@@ -1,0 +1,100 @@
+//! One volume with what has become of its frontier.
+
+use geometry::Point2;
+use geometry::planar::EdgeLedger;
+
+use super::chains::chains;
+use super::{Chain, Closing};
+use crate::volume::{LocalVolume, Samples};
+
+/// A volume of the map, its ledgers, and what they come to.
+#[derive(Clone, Debug)]
+pub struct VolumeState {
+    /// The geometry; replaced as a whole when a scan from the same place is merged in.
+    pub volume: LocalVolume,
+    /// Everything that was seen from the place.
+    pub samples: Samples,
+    /// For each frontier edge, which parts are closed and why.
+    pub ledgers: Vec<EdgeLedger<Closing>>,
+    /// The open parts that hang together.
+    pub chains: Vec<Chain>,
+    /// Length of the chains that count, metres.
+    pub open_m: f64,
+    /// Length of the chains that do not, metres.
+    pub sliver_m: f64,
+    /// Length closed as unreachable, metres.
+    pub unreachable_m: f64,
+    /// Whether it closed frontier of another volume that counted.
+    pub closed_others: bool,
+    /// Whether it is out of later comparisons.
+    pub retired: bool,
+    /// Places that could not be reached, with the radius around them; anchor frame, metres.
+    pub given_up: Vec<(Point2, f64)>,
+}
+
+impl VolumeState {
+    pub(crate) fn new(volume: LocalVolume, samples: Samples, sliver_m: f64) -> Self {
+        let ledgers = vec![EdgeLedger::new(); volume.frontier.len()];
+        let mut state = Self {
+            volume,
+            samples,
+            ledgers,
+            chains: Vec::new(),
+            open_m: 0.0,
+            sliver_m: 0.0,
+            unreachable_m: 0.0,
+            closed_others: false,
+            retired: false,
+            given_up: Vec::new(),
+        };
+        state.measure(sliver_m);
+        state
+    }
+
+    /// Whether frontier is left that counts.
+    pub fn counts(&self) -> bool {
+        self.open_m > 0.0
+    }
+
+    /// Whether any frontier is open, slivers included.
+    pub fn has_open(&self) -> bool {
+        !self.chains.is_empty()
+    }
+
+    /// Measures the ledgers anew.
+    pub(crate) fn measure(&mut self, sliver_m: f64) {
+        self.chains = chains(&self.volume, &self.ledgers);
+        self.open_m = 0.0;
+        self.sliver_m = 0.0;
+        for chain in &self.chains {
+            if chain.length_m >= sliver_m {
+                self.open_m += chain.length_m;
+            } else {
+                self.sliver_m += chain.length_m;
+            }
+        }
+        self.unreachable_m = 0.0;
+        for (edge, ledger) in self.volume.frontier.iter().zip(&self.ledgers) {
+            for closed in ledger.closed() {
+                if closed.reason.cause == super::Cause::Unreachable {
+                    self.unreachable_m += closed.span.share() * edge.length_m();
+                }
+            }
+        }
+    }
+
+    /// The chains that count.
+    pub fn counting_chains(&self, sliver_m: f64) -> impl Iterator<Item = &Chain> {
+        self.chains.iter().filter(move |chain| chain.length_m >= sliver_m)
+    }
+
+    /// Memory held on the heap, bytes.
+    pub(crate) fn heap_bytes(&self) -> usize {
+        let closings: usize = self.ledgers.iter().map(|ledger| ledger.closed().len()).sum();
+        self.volume.heap_bytes()
+            + self.samples.len() * (size_of::<crate::volume::Sample>() + 1)
+            + self.ledgers.len() * size_of::<EdgeLedger<Closing>>()
+            + closings * size_of::<geometry::planar::Closed<Closing>>()
+            + self.chains.iter().map(|c| c.parts.len() * size_of::<super::ChainPart>()).sum::<usize>()
+    }
+}
