@@ -40,3 +40,62 @@ fn rows_in_column(a: &Point2, b: &Point2, column: i64) -> (f64, f64) {
     let leave = if b.x <= right { b.y } else { a.y + (right - a.x) * slope };
     (enter, leave)
 }
+
+#[cfg(test)]
+mod tests {
+    use std::collections::BTreeSet;
+
+    use proptest::prelude::*;
+
+    use super::*;
+
+    /// Whether a segment with ends on the quarter grid crosses the open interior of a cell:
+    /// separating axes in whole numbers, in units of a quarter cell.
+    fn crosses_exactly(a: (i64, i64), b: (i64, i64), column: i64, row: i64) -> bool {
+        let (left, low) = (4 * column, 4 * row);
+        let overlaps = |p: i64, q: i64, from: i64| p.max(q) > from && p.min(q) < from + 4;
+        let side = |x: i64, y: i64| (b.0 - a.0) * (y - a.1) - (b.1 - a.1) * (x - a.0);
+        let sides =
+            [side(left, low), side(left + 4, low), side(left, low + 4), side(left + 4, low + 4)];
+        let straddles = sides.iter().any(|&s| s < 0) && sides.iter().any(|&s| s > 0);
+        overlaps(a.0, b.0, left) && overlaps(a.1, b.1, low) && (straddles || a == b)
+    }
+
+    proptest! {
+        #![proptest_config(ProptestConfig::with_cases(3000))]
+
+        #[test]
+        fn interiors_are_crossed_exactly(
+            a in (-24..24i64, -24..24i64), b in (-24..24i64, -24..24i64),
+        ) {
+            let point = |p: (i64, i64)| Point2::new(p.0 as f64 / 4.0, p.1 as f64 / 4.0);
+            let mut found = Vec::new();
+            crossed_interiors(&point(a), &point(b), |column, row| found.push((column, row)));
+            let once: BTreeSet<(i64, i64)> = found.iter().copied().collect();
+            prop_assert_eq!(once.len(), found.len(), "no cell twice");
+            for column in -8..8 {
+                for row in -8..8 {
+                    let expected = crosses_exactly(a, b, column, row);
+                    prop_assert_eq!(once.contains(&(column, row)), expected, "{} {}", column, row);
+                }
+            }
+            // A touched cell holds every crossed one, and visits none twice either.
+            let mut touched = Vec::new();
+            touched_cells(&point(a), &point(b), |column, row| touched.push((column, row)));
+            let touched_once: BTreeSet<(i64, i64)> = touched.iter().copied().collect();
+            prop_assert_eq!(touched_once.len(), touched.len());
+            prop_assert!(touched_once.is_superset(&once));
+        }
+    }
+
+    #[test]
+    fn a_segment_along_a_border_touches_but_does_not_cross() {
+        let (a, b) = (Point2::new(0.5, 2.0), Point2::new(2.5, 2.0));
+        let mut crossed = 0;
+        crossed_interiors(&a, &b, |_, _| crossed += 1);
+        assert_eq!(crossed, 0);
+        let mut touched = Vec::new();
+        touched_cells(&a, &b, |column, row| touched.push((column, row)));
+        assert_eq!(touched, vec![(0, 2), (1, 2), (2, 2)]);
+    }
+}

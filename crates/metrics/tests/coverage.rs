@@ -1,0 +1,297 @@
+//! Coverage: which cells count, which are seen, and the distance at first sight.
+
+use std::sync::Arc;
+
+use geometry::{Point2, Vector2};
+use metrics::{Coverage, CoverageParams, Rule, Verdict, View, Witness};
+use pose::Se2;
+use probe::VertexId;
+use proptest::prelude::*;
+use sensing::Robot;
+use worlds::{CellMap, OdometryParams, RobotParams, SensorParams, SimRobot, World2d};
+
+fn still() -> OdometryParams {
+    OdometryParams { scale: 0.0, ..OdometryParams::default() }
+}
+
+prop_compose! {
+    fn cell_map()(columns in 2..16usize, rows in 2..16usize)(
+        solid in prop::collection::vec(prop::bool::weighted(0.3), columns * rows),
+        columns in Just(columns), rows in Just(rows),
+        x in -20.0..20.0f64, y in -20.0..20.0f64, cell_m in 0.1..2.0f64,
+    ) -> CellMap {
+        CellMap { columns, rows, cell_m, origin_in_world: Point2::new(x, y), solid }
+    }
+}
+
+fn centre(cells: &CellMap, index: usize) -> Point2 {
+    let (column, row) = (index % cells.columns, index / cells.columns);
+    cells.origin_in_world + Vector2::new(column as f64 + 0.5, row as f64 + 0.5) * cells.cell_m
+}
+
+/// A world whose start is the middle of its first free cell.
+fn world(cells: &CellMap) -> Option<World2d> {
+    let first = cells.solid.iter().position(|&solid| !solid)?;
+    let start = centre(cells, first);
+    World2d::from_cells("random", cells.clone(), Se2::new(start.x, start.y, 0.0)).ok()
+}
+
+/// Whether all raster cells under a block of `k` by `k` are free, outside being solid.
+fn block_is_free(cells: &CellMap, k: usize, column: usize, row: usize) -> bool {
+    (0..k)
+        .all(|dy| (0..k).all(|dx| !cells.is_solid((column * k + dx) as i64, (row * k + dy) as i64)))
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn a_cell_is_free_when_every_raster_cell_in_it_is(cells in cell_map(), k in 1..4usize) {
+        let Some(world) = world(&cells) else { return Ok(()) };
+        let params = CoverageParams { cell_m: cells.cell_m * k as f64, rule: Rule::Rays };
+        let coverage = Coverage::new(&world, params);
+        let (columns, rows) = coverage.size();
+        prop_assert_eq!((columns, rows), (cells.columns.div_ceil(k), cells.rows.div_ceil(k)));
+        let free: Vec<bool> =
+            (0..columns * rows).map(|i| block_is_free(&cells, k, i % columns, i / columns)).collect();
+        prop_assert_eq!(coverage.cells_total(), free.iter().filter(|&&free| free).count());
+
+        // What counts is one component of the free cells, by relaxing labels until they rest.
+        let counted: Vec<bool> = (0..free.len()).map(|i| coverage.counts(i)).collect();
+        prop_assert!(counted.iter().zip(&free).all(|(counts, free)| !counts || *free));
+        let mut reached: Vec<bool> = vec![false; free.len()];
+        if let Some(first) = counted.iter().position(|&counts| counts) {
+            reached[first] = true;
+            for _ in 0..free.len() {
+                for i in 0..free.len() {
+                    let (column, row) = (i % columns, i / columns);
+                    let beside = (column > 0 && reached[i - 1])
+                        || (column + 1 < columns && reached[i + 1])
+                        || (row > 0 && reached[i - columns])
+                        || (row + 1 < rows && reached[i + columns]);
+                    reached[i] |= free[i] && beside;
+                }
+            }
+        }
+        prop_assert_eq!(counted, reached);
+        if k == 1 {
+            let start = cells.solid.iter().position(|&solid| !solid).unwrap();
+            prop_assert!(coverage.counts(start), "the start's own cell counts");
+        }
+    }
+
+    #[test]
+    fn rays_see_what_samples_along_them_touch(
+        cells in cell_map(), seed in 0..100u64,
+        turns in prop::collection::vec(-3.0..3.0f64, 3),
+    ) {
+        let Some(world) = world(&cells) else { return Ok(()) };
+        let cell_m = cells.cell_m;
+        let coverage = Coverage::new(&world, CoverageParams { cell_m, rule: Rule::Rays });
+        let params = RobotParams { odometry: still(), ..RobotParams::default() };
+        let mut witness = Witness::new(SimRobot::new(Arc::new(world), params, seed), coverage);
+        let mut crossed = vec![false; cells.solid.len()];
+        let mut grazed = crossed.clone();
+        for turn_rad in turns {
+            witness.turn(turn_rad);
+            witness.forward(0.7 * cell_m);
+            witness.scan();
+            let in_cells = |point: &Point2| (point - cells.origin_in_world) / cell_m;
+            let origin = in_cells(&Point2::from(witness.view().world_from_sensor.translation));
+            for end in &witness.view().ends_in_world {
+                for index in 0..cells.solid.len() {
+                    let low = Vector2::new(
+                        (index % cells.columns) as f64,
+                        (index / cells.columns) as f64,
+                    );
+                    crossed[index] |= meets_box(origin, in_cells(end), low, -1e-6);
+                    grazed[index] |= meets_box(origin, in_cells(end), low, 1e-6);
+                }
+            }
+        }
+        let coverage = witness.coverage();
+        for index in 0..cells.solid.len() {
+            let seen = coverage.first_seen_m(index).is_some();
+            prop_assert!(!(coverage.counts(index) && crossed[index]) || seen);
+            prop_assert!(!seen || grazed[index]);
+        }
+    }
+
+    #[test]
+    fn views_see_the_centres_between_their_rays(
+        cells in cell_map(), turn_rad in -3.0..3.0f64, fov_deg in prop_oneof![20.0..350.0f64, Just(360.0)],
+        rays in 8..60usize, k in 1..4usize,
+    ) {
+        let Some(world) = world(&cells) else { return Ok(()) };
+        let cell_m = cells.cell_m / k as f64;
+        let coverage = Coverage::new(&world, CoverageParams { cell_m, rule: Rule::View });
+        let sensor = SensorParams { fov_rad: fov_deg.to_radians(), rays, ..SensorParams::default() };
+        let params = RobotParams { odometry: still(), sensor, ..RobotParams::default() };
+        let mut witness = Witness::new(SimRobot::new(Arc::new(world), params, 1), coverage);
+        witness.turn(turn_rad);
+        witness.scan();
+        let (coverage, view) = (witness.coverage(), witness.view());
+        for index in 0..coverage.size().0 * coverage.size().1 {
+            let inside = star_depth(view, &coverage.centre_in_world(index));
+            if inside.abs() > 1e-6 && coverage.counts(index) {
+                prop_assert_eq!(coverage.first_seen_m(index).is_some(), inside > 0.0);
+            }
+        }
+    }
+}
+
+/// Whether a segment meets the unit box at `low` grown by `grow` on each side: clipping by slabs.
+fn meets_box(from: Vector2, to: Vector2, low: Vector2, grow: f64) -> bool {
+    let (mut enter, mut leave) = (0.0f64, 1.0f64);
+    for axis in 0..2 {
+        let step = to[axis] - from[axis];
+        let (near, far) = (low[axis] - grow, low[axis] + 1.0 + grow);
+        if step == 0.0 {
+            if from[axis] < near || from[axis] > far {
+                return false;
+            }
+            continue;
+        }
+        let (a, b) = ((near - from[axis]) / step, (far - from[axis]) / step);
+        enter = enter.max(a.min(b));
+        leave = leave.min(a.max(b));
+    }
+    enter <= leave
+}
+
+/// How deep a point lies in a view, by its bearing: the radial test of a star-shaped region.
+/// Positive inside, negative outside; near 0 within rounding of the border.
+fn star_depth(view: &View, point: &Point2) -> f64 {
+    let origin = Point2::from(view.world_from_sensor.translation);
+    let ends = &view.ends_in_world;
+    let sides = if view.full_circle { ends.len() } else { ends.len() - 1 };
+    let cross = |a: Vector2, b: Vector2| a.x * b.y - a.y * b.x;
+    let to = point - origin;
+    let mut best = f64::NEG_INFINITY;
+    for i in 0..sides {
+        let (a, b) = (ends[i], ends[(i + 1) % ends.len()]);
+        let left = cross((a - origin).normalize(), to);
+        let right = cross(to, (b - origin).normalize());
+        let across = cross((b - a).normalize(), point - a);
+        best = best.max(left.min(right).min(across));
+    }
+    best
+}
+
+/// A corridor one cell wide along x, and a robot that looks along it.
+fn corridor(length: usize) -> Witness {
+    let start = Se2::new(0.5, 0.5, 0.0);
+    let world = World2d::from_cells("corridor", CellMap::free(length, 1, 1.0), start).unwrap();
+    let coverage = Coverage::new(&world, CoverageParams::default());
+    let sensor = SensorParams { rays: 1, range_m: 3.0, ..SensorParams::default() };
+    let params = RobotParams { sensor, odometry: still(), ..RobotParams::default() };
+    Witness::new(SimRobot::new(Arc::new(world), params, 1), coverage)
+}
+
+#[test]
+fn distance_at_first_sight_is_counted_by_hand() {
+    let mut witness = corridor(8);
+    witness.scan();
+    // The ray from x = 0.5 to 3.5 touches cells 0, 1, 2, 3, at distance 0.
+    assert_eq!(witness.take_newly_seen(), vec![0, 1, 2, 3]);
+    assert_eq!(witness.coverage().fraction(), 0.5);
+    assert_eq!(witness.coverage().d_exp_m(), None);
+    let verdict = witness.verdict(true);
+    assert!(verdict.false_completion);
+    assert_eq!((verdict.d_max_m, verdict.d_exp_m), (None, None));
+
+    witness.forward(1.0);
+    witness.scan();
+    assert_eq!(witness.take_newly_seen(), vec![4]);
+    witness.mark(VertexId(0));
+    witness.forward(2.0);
+    witness.scan();
+    assert_eq!(witness.take_newly_seen(), vec![5, 6]);
+    witness.forward(1.5);
+    witness.repeat(VertexId(0), 1.5);
+    assert!(witness.take_newly_seen().is_empty(), "only scans see");
+    witness.turn(std::f64::consts::PI);
+    witness.forward(2.0);
+    witness.scan();
+    assert_eq!(witness.take_newly_seen(), Vec::<usize>::new());
+    witness.turn(0.0);
+    let tally = witness.tally();
+    assert_eq!((tally.scans, tally.collisions, tally.bumps), (4, 0, 0));
+    assert_eq!(tally.distance_m, 8.0);
+
+    witness.forward(2.0);
+    witness.scan();
+    assert_eq!(witness.take_newly_seen(), vec![7]);
+    // (4 · 0 + 1 · 1 + 2 · 3 + 1 · 10) / 8
+    assert_eq!(witness.coverage().d_exp_m(), Some(17.0 / 8.0));
+    assert_eq!(witness.coverage().first_seen_m(7), Some(10.0));
+    assert_eq!(
+        witness.verdict(true),
+        Verdict {
+            believed_complete: true,
+            coverage: 1.0,
+            false_completion: false,
+            distance_m: 10.0,
+            d_max_m: Some(10.0),
+            d_exp_m: Some(17.0 / 8.0),
+            cells_total: 8,
+            cells_reachable: 8,
+        }
+    );
+    let unsure = witness.verdict(false);
+    assert_eq!((unsure.d_max_m, unsure.d_exp_m), (None, None));
+    assert!(!unsure.false_completion);
+}
+
+#[test]
+fn what_the_robot_cannot_reach_does_not_count() {
+    // Two rooms; no door between them.
+    let mut cells = CellMap::free(7, 3, 1.0);
+    for row in 0..3 {
+        cells.solid[row * 7 + 3] = true;
+    }
+    let world = World2d::from_cells("rooms", cells, Se2::new(0.5, 0.5, 0.0)).unwrap();
+    let coverage = Coverage::new(&world, CoverageParams::default());
+    assert_eq!((coverage.cells_total(), coverage.cells_reachable()), (18, 9));
+}
+
+#[test]
+fn a_start_in_a_cell_that_a_wall_cuts_counts_from_the_nearest_cell_in_sight() {
+    let ring = |low: f64, high: f64| {
+        [(low, low), (high, low), (high, high), (low, high)]
+            .map(|(x, y)| Point2::new(x, y))
+            .to_vec()
+    };
+    // The block cuts the cells from 3 to 5; the start stands in one of them, left of the block.
+    let rings = vec![ring(0.0, 8.0), ring(3.5, 4.5)];
+    let world = World2d::from_polygons("block", rings, Se2::new(3.2, 4.0, 0.0)).unwrap();
+    let coverage = Coverage::new(&world, CoverageParams::default());
+    assert_eq!((coverage.cells_total(), coverage.cells_reachable()), (60, 60));
+}
+
+#[test]
+fn a_place_without_a_free_cell_is_never_complete() {
+    let ring = vec![Point2::new(0.0, 0.0), Point2::new(1.0, 0.0), Point2::new(0.0, 1.0)];
+    let world = World2d::from_polygons("wedge", vec![ring], Se2::new(0.2, 0.2, 0.0)).unwrap();
+    let coverage = Coverage::new(&world, CoverageParams::default());
+    assert_eq!((coverage.cells_total(), coverage.cells_reachable()), (0, 0));
+    assert_eq!((coverage.fraction(), coverage.is_complete()), (0.0, false));
+    assert_eq!(coverage.d_exp_m(), None);
+}
+
+#[test]
+fn a_ray_onto_a_wall_along_a_cell_border_does_not_see_behind_it() {
+    let ring = |x0: f64, x1: f64| {
+        [(x0, 0.0), (x1, 0.0), (x1, 5.0), (x0, 5.0)].map(|(x, y)| Point2::new(x, y)).to_vec()
+    };
+    // A wall from x = 3 to x = 3.1; the cells behind it are seen by no ray from the left.
+    let rings = vec![ring(0.0, 8.0), ring(3.0, 3.1)];
+    let world = World2d::from_polygons("wall", rings, Se2::new(0.5, 2.5, 0.0)).unwrap();
+    let mut coverage = Coverage::new(&world, CoverageParams { cell_m: 0.1, rule: Rule::Rays });
+    let mut robot = SimRobot::new(Arc::new(world), RobotParams::default(), 1);
+    robot.scan();
+    coverage.see(robot.view(), 0.0);
+    let seen = coverage.take_newly_seen();
+    assert!(seen.len() > 100);
+    assert!(seen.iter().all(|&index| coverage.centre_in_world(index).x < 3.0));
+}
