@@ -2,11 +2,13 @@
 
 mod cells;
 mod error;
+pub mod generate;
 pub mod paper;
 pub mod raster;
 mod robot;
 mod solid;
 pub mod start;
+pub mod thesis;
 mod world;
 
 pub use cells::CellMap;
