@@ -1,2 +1,7 @@
 //! The `driftlab` command.
-fn main() {}
+
+use std::process::ExitCode;
+
+fn main() -> ExitCode {
+    driftlab::command::main()
+}

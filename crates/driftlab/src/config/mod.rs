@@ -30,6 +30,7 @@ mod source;
 #[cfg(test)]
 mod tests;
 mod world;
+mod world_file;
 
 pub use error::ConfigError;
 pub use experiment::{Config, Start};
@@ -39,9 +40,10 @@ pub use planner::{Planner, RapidPlanner, SurveyPlanner};
 pub use report::{Compare, Every, Level, Metrics, Record, Rule};
 pub use robot::{Odometry, Places, Robot, Sensor};
 pub use schema::{meaning, schema};
-pub use show::{defaults_toml, plain_toml, resolved_toml};
+pub use show::{defaults_toml, origins, plain_toml, resolved_toml};
 pub use source::{Origin, Place};
 pub use world::{
     CorridorWorld, ImageWorld, MapServerWorld, MazeWorld, MovingAiWorld, PaperMap, PaperWorld,
     PillarsWorld, PolygonsWorld, RoomsWorld, ThesisMap, ThesisWorld, World,
 };
+pub use world_file::world_kind_of_file;

@@ -1,5 +1,7 @@
 //! Configs as text: resolved with origins, and the annotated defaults.
 
+use std::collections::BTreeMap;
+
 use serde_json::Value as Json;
 use toml::Value;
 
@@ -19,6 +21,22 @@ pub fn resolved_toml(loaded: &Loaded) -> String {
     let table = table_of(&loaded.config);
     write_resolved(&table, "", &|path| Some(loaded.origin(path)), &mut lines);
     aligned(&lines)
+}
+
+/// Where each value of the resolved config came from, by dotted path.
+pub fn origins(loaded: &Loaded) -> BTreeMap<String, String> {
+    fn walk(table: &toml::Table, path: &str, loaded: &Loaded, all: &mut BTreeMap<String, String>) {
+        for (key, value) in table {
+            let path = join(path, key);
+            match value {
+                Value::Table(inner) => walk(inner, &path, loaded, all),
+                _ => drop(all.insert(path.clone(), loaded.origin(&path).to_string())),
+            }
+        }
+    }
+    let mut all = BTreeMap::new();
+    walk(&table_of(&loaded.config), "", loaded, &mut all);
+    all
 }
 
 /// A config as TOML without comments, keys in the order of the schema.

@@ -1,0 +1,156 @@
+//! What can be typed.
+
+use std::path::PathBuf;
+
+use clap::{Args, Parser, Subcommand};
+
+const VERSION: &str = if env!("DRIFTLAB_GIT_HASH").is_empty() {
+    env!("CARGO_PKG_VERSION")
+} else {
+    concat!(env!("CARGO_PKG_VERSION"), " (", env!("DRIFTLAB_GIT_HASH"), ")")
+};
+
+#[derive(Debug, Parser)]
+#[command(
+    name = "driftlab",
+    version = VERSION,
+    about = "A workbench for exploration maps that survive pose drift",
+    long_about = "A workbench for exploration maps that survive pose drift.\n\n\
+        A robot whose wheels drift explores an unknown place. Driftlab builds its map in several \
+        ways at once, tells for each when the robot believes that it has seen everything and what \
+        was really seen, and records every step for the Rerun viewer.",
+    after_help = "First steps:\n  \
+        driftlab run configs/paper/maze.toml       explore the maze of the paper\n  \
+        driftlab view recordings/maze/run.rrd      step through what happened\n  \
+        driftlab config defaults                   every key of a config, explained\n\n\
+        Exit codes: 0 done, 1 the work failed, 2 bad usage or bad input.",
+    propagate_version = true,
+    arg_required_else_help = true
+)]
+pub(super) struct Cli {
+    #[command(flatten)]
+    pub(super) global: Global,
+    #[command(subcommand)]
+    pub(super) command: Command,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct Global {
+    /// Print the result as one JSON object on standard output, and nothing else there
+    #[arg(long, global = true)]
+    pub(super) json: bool,
+    /// No messages and no progress bar, only errors
+    #[arg(short, long, global = true, conflicts_with = "verbose")]
+    pub(super) quiet: bool,
+    /// More messages
+    #[arg(short, long, global = true, action = clap::ArgAction::Count)]
+    pub(super) verbose: u8,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum Command {
+    /// Run one experiment and leave a folder with its recording and results
+    Run(RunArgs),
+    /// Tell what a recording holds: entities, timelines, rows, events, final metrics
+    Inspect(InspectArgs),
+    /// Open a recording in the Rerun viewer
+    View(ViewArgs),
+    /// Show a resolved config, the defaults, or the JSON schema
+    Config(ConfigArgs),
+    /// Print a completion script for a shell
+    Completions(CompletionsArgs),
+}
+
+/// A config and what is laid over it.
+#[derive(Debug, Args)]
+pub(super) struct ConfigInput {
+    /// The experiment: a TOML file, see `driftlab config defaults`
+    pub(super) config: PathBuf,
+    /// Set one value of the config, as a TOML value; may be given again
+    ///
+    /// The path is the one of the config: `--set odometry.scale=0.5`, `--set 'record.level="off"'`,
+    /// `--set 'planner.survey={}'`. Naming another world or planner than the config's replaces it.
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    pub(super) sets: Vec<String>,
+    /// Explore this map file instead of the config's world
+    ///
+    /// The kind is told from the content: a map_server YAML file, a PGM or PNG image, or a MovingAI
+    /// `.map`. The start of the config's own world is dropped. A plain image takes 0.05 m per pixel
+    /// unless the config, or `--set world.image.resolution_m=...`, says otherwise.
+    #[arg(long, value_name = "FILE")]
+    pub(super) world: Option<PathBuf>,
+}
+
+#[derive(Debug, Args)]
+#[command(
+    long_about = "Run one experiment and leave a folder with its recording and results.\n\n\
+        The folder holds run.rrd (the recording), run.toml (the resolved config), metrics.json, \
+        steps.parquet, timing.json and provenance.toml. The same config, seed and program give the \
+        same metrics.json and steps.parquet, byte for byte. A run that is killed leaves a recording \
+        that opens up to its last flush.",
+    after_help = "Examples:\n  \
+        driftlab run configs/paper/maze.toml\n  \
+        driftlab run configs/paper/maze.toml --set seed=7 --set odometry.scale=0.5 --out /tmp/try\n  \
+        driftlab run configs/maps/building.toml --world floor.yaml --json"
+)]
+pub(super) struct RunArgs {
+    #[command(flatten)]
+    pub(super) input: ConfigInput,
+    /// Folder of the run [default: recordings/NAME]
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+    /// Write the recording here instead of into the run's folder
+    #[arg(long, value_name = "FILE.rrd")]
+    pub(super) record: Option<PathBuf>,
+    /// Replace the run that is in the folder already
+    #[arg(long)]
+    pub(super) force: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct InspectArgs {
+    /// The recording, an `.rrd` file; or the folder of a run
+    pub(super) file: PathBuf,
+}
+
+#[derive(Debug, Args)]
+#[command(long_about = "Open a recording in the Rerun viewer.\n\n\
+    Looks for the `rerun` program on the PATH. Where there is none: `pip install \
+    rerun-sdk==0.36.3` brings it.")]
+pub(super) struct ViewArgs {
+    /// The recording, an `.rrd` file; or the folder of a run
+    pub(super) file: PathBuf,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct ConfigArgs {
+    #[command(subcommand)]
+    pub(super) command: ConfigCommand,
+}
+
+#[derive(Debug, Subcommand)]
+pub(super) enum ConfigCommand {
+    /// Print a config with every default filled in, and where each value came from
+    Show(ConfigInput),
+    /// Print every key with its default and its meaning, as a config that runs
+    Defaults,
+    /// Print the JSON schema, for editors that complete keys
+    Schema,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct CompletionsArgs {
+    /// The shell
+    pub(super) shell: clap_complete::Shell,
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use clap::CommandFactory;
+
+    #[test]
+    fn the_arguments_are_consistent() {
+        Cli::command().debug_assert();
+    }
+}

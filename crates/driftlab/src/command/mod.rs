@@ -1,0 +1,42 @@
+//! The `driftlab` command: arguments, messages, exit codes.
+//!
+//! Results go to standard output, everything else to standard error. Exit codes: 0 done, 1 the work
+//! failed, 2 bad usage or bad input.
+
+mod args;
+mod completions;
+mod config;
+mod failure;
+mod inspect;
+mod out;
+mod progress;
+mod run;
+mod table;
+mod view;
+
+use std::process::ExitCode;
+
+use clap::Parser;
+
+use args::{Cli, Command};
+use out::Out;
+
+/// Runs the command line of this process.
+pub fn main() -> ExitCode {
+    let cli = Cli::parse();
+    let out = Out::new(&cli.global);
+    let result = match &cli.command {
+        Command::Run(args) => run::run(args, &out),
+        Command::Inspect(args) => inspect::inspect(args, &out),
+        Command::View(args) => view::view(args, &out),
+        Command::Config(args) => config::config(args, &out),
+        Command::Completions(args) => completions::completions(args, &out),
+    };
+    match result {
+        Ok(()) => ExitCode::SUCCESS,
+        Err(failure) => {
+            out.error(&failure);
+            ExitCode::from(failure.code())
+        }
+    }
+}

@@ -1,0 +1,39 @@
+//! Which kind of world a map file is.
+
+use std::fs::File;
+use std::io::Read;
+use std::path::Path;
+
+use formats::Kind;
+
+use super::{ConfigError, Place};
+
+/// Bytes at the start of a file that tell its kind.
+const HEAD: u64 = 1 << 16;
+
+/// The key under `[world]` that reads this file, told by its content: `map_server`, `image` or
+/// `moving_ai`.
+///
+/// # Errors
+/// A file that cannot be read, or of another kind.
+pub fn world_kind_of_file(path: &Path) -> Result<&'static str, ConfigError> {
+    let expected = "a map: map_server YAML, PGM, PNG or MovingAI .map";
+    let mut head = Vec::new();
+    let read = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
+    read.map_err(|reason| ConfigError::Unreadable {
+        path: path.to_owned(),
+        reason,
+        expected: expected.into(),
+    })?;
+    let extension = path.extension().and_then(|extension| extension.to_str());
+    match formats::sniff(&head, extension) {
+        Kind::MapServerYaml => Ok("map_server"),
+        Kind::Pgm | Kind::Png => Ok("image"),
+        Kind::MovingAi => Ok("moving_ai"),
+        kind @ (Kind::Toml | Kind::Unknown) => Err(ConfigError::Value {
+            place: Place::file(path),
+            found: if kind == Kind::Toml { "a TOML file" } else { "no known kind of map" }.into(),
+            expected: expected.into(),
+        }),
+    }
+}
