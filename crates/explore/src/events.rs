@@ -63,6 +63,8 @@ pub enum Ending {
     Complete,
     /// The step limit was reached first.
     StepLimit,
+    /// Frontier is left that counts, but the map offers no way to act on it.
+    Stuck,
 }
 
 /// Steps of the policy ([ISRR19] 5, [Zie18] 2.9).
@@ -143,3 +145,10 @@ impl<P> ExploreProbe for P where
     P: MapProbe + Probe<GraphEvent> + for<'a> Probe<PlannerEvent<'a>> + ?Sized
 {
 }
+
+probe::variants!(GraphEvent: VertexAdded, EdgeAdded, EdgeWithdrawn);
+probe::variants!(
+    PlannerEvent<'_>:
+    StateChanged, CandidatesScored, GoalChosen, RoutePlanned, Turned, Drove, LegRepeated,
+    GoalGivenUp, Finished
+);

@@ -20,3 +20,5 @@ pub enum GridEvent<'a> {
         grid: &'a GridMap,
     },
 }
+
+probe::variants!(GridEvent<'_>: ScanApplied, Rebuilt);

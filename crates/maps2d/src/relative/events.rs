@@ -92,3 +92,8 @@ pub enum ConsolidationEvent<'a> {
         standing: VertexId,
     },
 }
+
+probe::variants!(
+    ConsolidationEvent<'_>:
+    ScopeTaken, PairCompared, Closed, Reopened, Retired, Restored, Settled
+);

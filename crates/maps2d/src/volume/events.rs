@@ -40,3 +40,5 @@ pub enum VolumeEvent<'a> {
         volume: &'a LocalVolume,
     },
 }
+
+probe::variants!(VolumeEvent<'_>: Measured, Sampled, Built, Merged);
