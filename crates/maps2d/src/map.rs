@@ -1,6 +1,6 @@
 //! What a policy asks of a map, whatever represents it.
 
-use geometry::Point2;
+use geometry::{Point2, Vector2};
 use pose::Se2;
 use posegraph::PoseGraph;
 use probe::{EdgeId, VertexId};
@@ -23,6 +23,9 @@ pub struct Candidate {
     /// Points to go to, in the body frame, metres: the best first, the others for where it cannot
     /// be reached.
     pub goals_in_body: [Point2; 3],
+    /// Unit vector across the frontier at the first goal, into the unknown, in the body frame; zero
+    /// where the map knows none.
+    pub normal_in_body: Vector2,
     /// Length of the frontier that hangs together there, metres.
     pub length_m: f64,
     /// Whether turning is enough to look behind it.
@@ -84,6 +87,9 @@ pub trait ExplorationMap {
 
     /// The way to the nearest frontier, or `None` if none is left that can be reached.
     fn route(&mut self, standing: &Standing, clearance_m: f64) -> Option<Route>;
+
+    /// Whether a vertex still has frontier that counts, so that a way to it is worth going on with.
+    fn is_worth_visiting(&self, vertex: VertexId) -> bool;
 
     /// The robot got as near to the frontier at `goal_in_body` as it may and looked, or found no way
     /// to it at all: whatever frontier is left within `radius_m` of it does not count from now on.

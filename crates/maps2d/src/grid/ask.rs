@@ -1,7 +1,7 @@
 //! The grid's own frontier planner ([ISRR19] 6.2): frontier cells in view, else Dijkstra's search
 //! over free cells.
 
-use geometry::Point2;
+use geometry::{Point2, Vector2};
 use probe::VertexId;
 use search::{Graph, dijkstra_nearest};
 
@@ -29,6 +29,7 @@ impl GridMap {
                 if here || self.view.polygon.contains(&centre_in_anchor) {
                     out.push(Candidate {
                         goals_in_body: [centre_in_body; 3],
+                        normal_in_body: Vector2::zeros(),
                         length_m: self.params.cell_m,
                         turn_only: here,
                         tag: pack(cell),

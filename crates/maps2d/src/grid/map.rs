@@ -159,6 +159,11 @@ impl ExplorationMap for GridMap {
         self.way_over_free_cells(standing, clearance_m)
     }
 
+    /// The grid leads to cells, not to vertices.
+    fn is_worth_visiting(&self, _vertex: VertexId) -> bool {
+        false
+    }
+
     fn give_up(
         &mut self,
         standing: &Standing,

@@ -1,6 +1,6 @@
 //! What a policy asks: frontiers in view, clearance, the way to the next frontier.
 
-use geometry::Point2;
+use geometry::{Point2, Vector2};
 
 use super::{Chain, RelativeMap, VolumeState};
 use crate::{Candidate, MapProbe, Route, Standing};
@@ -23,8 +23,10 @@ impl RelativeMap {
                 let goals = GOAL_SHARES.map(|share| {
                     standing.vertex_from_body.inverse_transform(&run.at(share))
                 });
+                let body_from_vertex = standing.vertex_from_body.rotation.inverse();
                 out.push(Candidate {
                     goals_in_body: goals,
+                    normal_in_body: body_from_vertex * run.normal_at(GOAL_SHARES[0]),
                     length_m: run.length_m,
                     turn_only: spoke,
                     tag: 2 * tag as u64 + u64::from(spoke),
@@ -95,15 +97,29 @@ impl Run {
 
     /// The point at a share of the length.
     fn at(&self, share: f64) -> Point2 {
+        let Some((part, along)) = self.part_at(share) else { return Point2::origin() };
+        let (from, to, _) = &self.parts[part];
+        from + (to - from) * along
+    }
+
+    /// Unit vector into the unknown at a share of the length: to the right, because boundaries run
+    /// counter-clockwise around what is known.
+    fn normal_at(&self, share: f64) -> Vector2 {
+        let Some((part, _)) = self.part_at(share) else { return Vector2::zeros() };
+        let (from, to, _) = &self.parts[part];
+        let along = to - from;
+        Vector2::new(along.y, -along.x).try_normalize(0.0).unwrap_or_else(Vector2::zeros)
+    }
+
+    /// The part at a share of the length, and how far along it.
+    fn part_at(&self, share: f64) -> Option<(usize, f64)> {
         let mut left_m = share * self.length_m;
-        let mut end = Point2::origin();
-        for (from, to, length_m) in &self.parts {
-            if left_m <= *length_m && *length_m > 0.0 {
-                return from + (to - from) * (left_m / length_m);
+        for (i, &(_, _, length_m)) in self.parts.iter().enumerate() {
+            if left_m <= length_m && length_m > 0.0 {
+                return Some((i, left_m / length_m));
             }
             left_m -= length_m;
-            end = *to;
         }
-        end
+        self.parts.len().checked_sub(1).map(|last| (last, 1.0))
     }
 }

@@ -170,6 +170,10 @@ impl ExplorationMap for RelativeMap {
         self.way_to_frontier(standing)
     }
 
+    fn is_worth_visiting(&self, vertex: VertexId) -> bool {
+        self.volume(vertex).is_some_and(VolumeState::counts)
+    }
+
     fn give_up(
         &mut self,
         standing: &Standing,
