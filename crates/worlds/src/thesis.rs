@@ -1,4 +1,4 @@
-//! The three polygon maps of [Zie18] (sec. 3.2), as recovered from its vector figures.
+//! The three polygon maps of \[Zie18\] (sec. 3.2), as recovered from its vector figures.
 //!
 //! Metres from the lower-left corner of the outer wall. The published start of the first map is
 //! kept. Those of the others are lost; ours, chosen in open ground and away from every wall:

@@ -6,7 +6,7 @@ use pose::Se2;
 use super::range::{length, refuse};
 use crate::{World2d, WorldError};
 
-/// The endless corridor of [Zie18] fig. 2.15: a rectangular ring around a block.
+/// The endless corridor of \[Zie18\] fig. 2.15: a rectangular ring around a block.
 ///
 /// The figure has no measures; the defaults make a lap of 56 m along the middle.
 #[derive(Clone, Debug, PartialEq)]

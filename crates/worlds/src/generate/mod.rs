@@ -7,7 +7,7 @@
 //! | `maze` | a maze with one way between any two places, or some loops | cells |
 //! | `caves` | caves with ragged walls | cells |
 //! | `pillars` | a hall with pillars | polygons |
-//! | `corridor` | a corridor around a block ([Zie18] fig. 2.15) | polygons |
+//! | `corridor` | a corridor around a block (\[Zie18\] fig. 2.15) | polygons |
 //!
 //! In all of them free space hangs together.
 
