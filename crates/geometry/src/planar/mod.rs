@@ -1,4 +1,4 @@
-//! Planar views: star polygons, clipping, and ledgers of what is still open.
+#![doc = include_str!("README.md")]
 
 mod boundary;
 mod clip;
