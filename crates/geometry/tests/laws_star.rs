@@ -30,7 +30,7 @@ fn views() -> impl Strategy<Value = StarPolygon> {
 }
 
 proptest! {
-    #![proptest_config(config(1_500, SEEDS))]
+    #![proptest_config(config(800, SEEDS))]
 
     #[test]
     fn a_sector_is_found_as_by_looking_at_all(star in stars(), spot in spots()) {
@@ -105,6 +105,24 @@ proptest! {
         for (t, s) in there.iter().zip(back.iter().rev()) {
             prop_assert!((t.from - (1.0 - s.to)).abs() < 1e-12);
             prop_assert!((t.to - (1.0 - s.from)).abs() < 1e-12);
+        }
+    }
+
+    /// Clipping refuses segments that keep out of the circle through the farthest vertex; here
+    /// they reach just inside of it.
+    #[test]
+    fn a_segment_through_the_last_bit_of_a_spike_is_clipped(star in stars(), inset in 1e-9..1e-2_f64) {
+        let polygon = star.star(exact);
+        for v in polygon.vertices() {
+            let p = v * (1.0 - inset);
+            if polygon.contains(&p) {
+                let across = Point2::new(-v.y, v.x).coords;
+                for (a, b) in [(p, v * 2.0), (v * 2.0, p), (p - across, p + across), (p, p)] {
+                    let mut out = Vec::new();
+                    polygon.clip(&a, &b, &mut out);
+                    prop_assert!(!out.is_empty(), "{} {}", a, b);
+                }
+            }
         }
     }
 
