@@ -5,7 +5,7 @@ use worlds::{View, World2d};
 
 use crate::free_cells::FreeCells;
 use crate::traversal::touched_cells;
-use crate::view_fill::centres_in_triangle;
+use crate::view_fill::RowFill;
 
 /// When a cell counts as seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -48,6 +48,7 @@ pub struct Coverage {
     cells_seen: usize,
     first_seen_sum_m: f64,
     newly_seen: Vec<usize>,
+    fill: RowFill,
 }
 
 impl Coverage {
@@ -63,6 +64,7 @@ impl Coverage {
             cells_seen: 0,
             first_seen_sum_m: 0.0,
             newly_seen: Vec::new(),
+            fill: RowFill::default(),
             cells,
         }
     }
@@ -89,15 +91,14 @@ impl Coverage {
                 if view.bearing_step_rad >= std::f64::consts::PI {
                     return;
                 }
-                let ends = &view.ends_in_world;
-                let sides = if view.full_circle { ends.len() } else { ends.len().max(1) - 1 };
-                for i in 0..sides {
-                    let a = self.cells.in_cells(&ends[i]);
-                    let b = self.cells.in_cells(&ends[(i + 1) % ends.len()]);
-                    centres_in_triangle([origin, a, b], |column, row| {
-                        self.sight(column, row, distance_m);
-                    });
+                let mut polygon: Vec<Point2> =
+                    view.ends_in_world.iter().map(|end| self.cells.in_cells(end)).collect();
+                if !view.full_circle {
+                    polygon.push(origin);
                 }
+                let mut fill = std::mem::take(&mut self.fill);
+                fill.fill(&polygon, |column, row| self.sight(column, row, distance_m));
+                self.fill = fill;
             }
         }
     }

@@ -24,11 +24,16 @@ pub(crate) fn crossed_interiors(a: &Point2, b: &Point2, mut visit: impl FnMut(i6
 /// segment touches, once each. Cost: the cells visited.
 pub(crate) fn touched_cells(a: &Point2, b: &Point2, mut visit: impl FnMut(i64, i64)) {
     let (a, b) = if a.x <= b.x { (a, b) } else { (b, a) };
-    for column in a.x.floor() as i64..=b.x.floor() as i64 {
-        let (y0, y1) = rows_in_column(a, b, column);
-        for row in y0.min(y1).floor() as i64..=y0.max(y1).floor() as i64 {
+    let slope = (b.y - a.y) / (b.x - a.x);
+    let (first, last) = (floor(a.x), floor(b.x));
+    let mut enter = a.y;
+    for column in first..=last {
+        let leave = if column == last { b.y } else { a.y + ((column + 1) as f64 - a.x) * slope };
+        let (enter_row, leave_row) = (floor(enter), floor(leave));
+        for row in enter_row.min(leave_row)..=enter_row.max(leave_row) {
             visit(column, row);
         }
+        enter = leave;
     }
 }
 
@@ -39,6 +44,14 @@ fn rows_in_column(a: &Point2, b: &Point2, column: i64) -> (f64, f64) {
     let enter = if a.x >= left { a.y } else { a.y + (left - a.x) * slope };
     let leave = if b.x <= right { b.y } else { a.y + (right - a.x) * slope };
     (enter, leave)
+}
+
+/// The whole number at or below, without the call into the maths library that `f64::floor` is on
+/// plain x86-64.
+#[inline]
+fn floor(x: f64) -> i64 {
+    let toward_zero = x as i64;
+    toward_zero - i64::from((toward_zero as f64) > x)
 }
 
 #[cfg(test)]

@@ -2,41 +2,54 @@
 
 use geometry::Point2;
 
-/// Rounding that still counts as inside, in cells: neighbouring triangles must leave no gap.
+/// Rounding that still counts as inside, in cells.
 const EPS: f64 = 1e-9;
 
-/// Calls `visit(column, row)` for every cell whose centre lies in the closed triangle.
-///
-/// Cost: the rows that the triangle spans and the cells visited.
-pub(crate) fn centres_in_triangle(corners: [Point2; 3], mut visit: impl FnMut(i64, i64)) {
-    let low = corners.iter().map(|p| p.y).fold(f64::INFINITY, f64::min);
-    let high = corners.iter().map(|p| p.y).fold(f64::NEG_INFINITY, f64::max);
-    let first_row = (low - 0.5 - EPS).ceil() as i64;
-    let last_row = (high - 0.5 + EPS).floor() as i64;
-    for row in first_row..=last_row {
-        let y = (row as f64 + 0.5).clamp(low, high);
-        let (mut left, mut right) = (f64::INFINITY, f64::NEG_INFINITY);
-        for i in 0..3 {
-            let (a, b) = (corners[i], corners[(i + 1) % 3]);
-            // From the lower end, so that a shared edge gives both its triangles the same x.
-            let (a, b) = if (a.y, a.x) <= (b.y, b.x) { (a, b) } else { (b, a) };
-            if y < a.y || y > b.y {
-                continue;
-            }
-            if a.y == b.y {
-                left = left.min(a.x);
-                right = right.max(b.x);
-            } else {
-                let x = a.x + (y - a.y) / (b.y - a.y) * (b.x - a.x);
-                left = left.min(x);
-                right = right.max(x);
+/// Fills polygons row by row; keeps its memory between calls.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct RowFill {
+    /// Where the border crosses the middle of each row, from the lowest row of the polygon.
+    crossings: Vec<Vec<f64>>,
+}
+
+impl RowFill {
+    /// Calls `visit(column, row)` for every cell whose centre lies in the simple polygon, once
+    /// each; on the border itself either may happen.
+    ///
+    /// Cost: the rows that each edge spans, and the cells visited.
+    pub(crate) fn fill(&mut self, polygon: &[Point2], mut visit: impl FnMut(i64, i64)) {
+        let (low, high) = polygon
+            .iter()
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), p| (l.min(p.y), h.max(p.y)));
+        if !low.is_finite() || !high.is_finite() {
+            return;
+        }
+        let first_row = (low - 0.5).floor() as i64;
+        let rows = ((high - 0.5).ceil() as i64 - first_row + 1).max(0) as usize;
+        if self.crossings.len() < rows {
+            self.crossings.resize_with(rows, Vec::new);
+        }
+        self.crossings[..rows].iter_mut().for_each(Vec::clear);
+        for i in 0..polygon.len() {
+            let (a, b) = (polygon[i], polygon[(i + 1) % polygon.len()]);
+            let (a, b) = if a.y <= b.y { (a, b) } else { (b, a) };
+            // Middles y with a.y <= y < b.y: each is crossed by an even number of edges.
+            let slope = (b.x - a.x) / (b.y - a.y);
+            let mut row = (a.y - 0.5).ceil();
+            while row + 0.5 < b.y {
+                let x = a.x + (row + 0.5 - a.y) * slope;
+                self.crossings[(row as i64 - first_row) as usize].push(x);
+                row += 1.0;
             }
         }
-        let first = (left - 0.5 - EPS).ceil();
-        let last = (right - 0.5 + EPS).floor();
-        if first <= last {
-            for column in first as i64..=last as i64 {
-                visit(column, row);
+        for (row, crossings) in (first_row..).zip(&mut self.crossings[..rows]) {
+            crossings.sort_by(f64::total_cmp);
+            for span in crossings.chunks_exact(2) {
+                let first = (span[0] - 0.5 - EPS).ceil() as i64;
+                let last = (span[1] - 0.5 + EPS).floor() as i64;
+                for column in first..=last {
+                    visit(column, row);
+                }
             }
         }
     }

@@ -181,7 +181,8 @@ fn star_depth(view: &View, point: &Point2) -> f64 {
 /// A corridor one cell wide along x, and a robot that looks along it.
 fn corridor(length: usize) -> Witness {
     let start = Se2::new(0.5, 0.5, 0.0);
-    let world = World2d::from_cells("corridor", CellMap::free(length, 1, 1.0), start).unwrap();
+    let world = World2d::from_cells("corridor", CellMap::free(length, 1, 1.0), start)
+        .expect("the start is free");
     let coverage = Coverage::new(&world, CoverageParams::default());
     let sensor = SensorParams { rays: 1, range_m: 3.0, ..SensorParams::default() };
     let params = RobotParams { sensor, odometry: still(), ..RobotParams::default() };

@@ -34,7 +34,12 @@ impl Ways {
 fn allowed(robot: &SimRobot, ways: &Ways, here: usize, count: usize) -> Vec<usize> {
     let places = &robot.params().places;
     let position = |v: usize| {
-        Point2::from(robot.world_from_vertex(VertexId::from_index(v)).unwrap().translation)
+        Point2::from(
+            robot
+                .world_from_vertex(VertexId::from_index(v))
+                .expect("every vertex was marked")
+                .translation,
+        )
     };
     let graph_m = ways.distances_m(here, count);
     (0..count)
@@ -57,7 +62,7 @@ fn walk(
     let (mut standing_on, mut since_m) = (None, 0.0);
     for &(turn_rad, kind) in steps {
         if kind == 0 && count > 1 && standing_on.is_some_and(|here: usize| here > 0) {
-            let to = standing_on.unwrap() - 1;
+            let to = standing_on.expect("checked above") - 1;
             robot.repeat(VertexId::from_index(to), 1.0);
             (standing_on, since_m) = (Some(to), 0.0);
         }
@@ -154,7 +159,8 @@ proptest! {
 /// its graph.
 fn lap(places: PlaceParams, seed: u64) -> (SimRobot, Vec<PlaceMatch>) {
     let start = Se2::new(4.0, 4.0, 0.0);
-    let world = World2d::from_cells("hall", CellMap::free(20, 20, 1.0), start).unwrap();
+    let world =
+        World2d::from_cells("hall", CellMap::free(20, 20, 1.0), start).expect("the start is free");
     let odometry = OdometryParams { scale: 0.0, ..OdometryParams::default() };
     let params = RobotParams { places, odometry, ..RobotParams::default() };
     let mut robot = SimRobot::new(Arc::new(world), params, seed);

@@ -14,7 +14,10 @@ use worlds::{
 fn field(size: usize) -> Arc<World2d> {
     let middle = size as f64 / 2.0;
     let start = Se2::new(middle, middle, 0.0);
-    Arc::new(World2d::from_cells("field", CellMap::free(size, size, 1.0), start).unwrap())
+    Arc::new(
+        World2d::from_cells("field", CellMap::free(size, size, 1.0), start)
+            .expect("the middle is free"),
+    )
 }
 
 fn quiet() -> RobotParams {
