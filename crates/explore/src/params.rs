@@ -15,6 +15,9 @@ pub struct RapidParams {
     pub arrival_m: f64,
     /// Radius around a goal within which frontier is given up, metres.
     pub give_up_radius_m: f64,
+    /// How often the robot is sent to a vertex whose frontier does not get less, before it gives the
+    /// frontier there up.
+    pub visits_in_vain: u32,
     /// Scans at one place before the robot moves on, whatever it sees.
     pub turns_at_a_place: u32,
     /// Whether the robot jumps along the graph and scans only at the end of a way; the distance is
@@ -31,6 +34,7 @@ impl Default for RapidParams {
             normal_point_m: vec![1.0, 0.5],
             arrival_m: 0.05,
             give_up_radius_m: 0.5,
+            visits_in_vain: 2,
             turns_at_a_place: 6,
             teleport: false,
         }

@@ -6,8 +6,11 @@
 //! and a goal is given up when it is reached and still there, when no motion towards it keeps even
 //! the least clearance, or when the robot has moved towards it for longer than it can be far away.
 
+use std::collections::BTreeMap;
+
 use geometry::Point2;
 use maps2d::{Candidate, Route};
+use pose::Se2;
 use probe::VertexId;
 use sensing::Robot;
 
@@ -22,6 +25,33 @@ pub(crate) struct Memory {
     pub turns_here: u32,
     /// The goal of the last move in the body frame of now, and moves made towards it.
     pub pursuit: Option<(Point2, u32)>,
+    /// How often the robot was sent to a vertex, and what it had left when it was sent last.
+    pub sent: BTreeMap<VertexId, (u32, f64)>,
+    /// A vertex that the robot was sent to in vain: its goals are given up on arrival.
+    pub in_vain: Option<VertexId>,
+    /// The frontier that a "normal point" serves, in the body frame of now, until it is looked at.
+    pub behind: Option<Behind>,
+}
+
+/// A frontier that is approached by a point before it.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Behind {
+    /// The point before it; `None` once the robot is there.
+    point_in_body: Option<Point2>,
+    /// The frontier.
+    goal_in_body: Point2,
+    /// Moves made for it.
+    moves: u32,
+}
+
+impl Behind {
+    fn moved(self, here_from_there: &Se2) -> Self {
+        Self {
+            point_in_body: self.point_in_body.map(|p| here_from_there.inverse_transform(&p)),
+            goal_in_body: here_from_there.inverse_transform(&self.goal_in_body),
+            moves: self.moves + 1,
+        }
+    }
 }
 
 /// A motion that the policy may make.
@@ -34,12 +64,14 @@ struct Motion {
     /// How far at most, metres.
     at_most_m: f64,
     heading_rad: f64,
+    /// The frontier that it serves, where it does not lead there itself.
+    behind_in_body: Option<Point2>,
 }
 
 impl Explorer {
     pub(crate) fn act_rapid(&mut self, robot: &mut dyn Robot, probe: &mut dyn ExploreProbe) {
         let params = self.params.policy.rapid().clone();
-        if self.follow_way(robot, &params, probe) {
+        if self.follow_way(robot, &params, probe) || self.go_behind(robot, &params, probe) {
             return;
         }
         // Giving goals up may leave nothing in view; each round closes some, so this ends.
@@ -58,7 +90,33 @@ impl Explorer {
                 None => break,
             }
         }
-        self.deliberate(robot, &params, probe);
+        if !self.look_around(robot, &params, probe) {
+            self.deliberate(robot, &params, probe);
+        }
+    }
+
+    /// Before the robot leaves: turns to what other places have left open around here.
+    ///
+    /// Without this a frontier beside the robot, out of its field of view, would only be looked at
+    /// after a way there and back.
+    fn look_around(
+        &mut self,
+        robot: &mut dyn Robot,
+        params: &RapidParams,
+        probe: &mut dyn ExploreProbe,
+    ) -> bool {
+        if self.rapid.turns_here >= params.turns_at_a_place {
+            return false;
+        }
+        let mut candidates = std::mem::take(&mut self.candidates);
+        self.maps[0].around(&self.standing, &mut candidates);
+        let motion = self.choose(&candidates, params, probe);
+        self.candidates = candidates;
+        let Some(motion) = motion else { return false };
+        self.rapid.turns_here += 1;
+        self.turn(robot, motion.heading_rad, probe);
+        self.scan(robot, probe);
+        true
     }
 
     /// Goes on along the way, if one is being followed and still worth it.
@@ -69,7 +127,7 @@ impl Explorer {
         probe: &mut dyn ExploreProbe,
     ) -> bool {
         let Some(&(goal, _)) = self.rapid.way.first() else { return false };
-        if !self.maps[0].is_worth_visiting(goal) {
+        if self.maps[0].frontier_at(goal) <= 0.0 {
             self.rapid.way.clear();
             return false;
         }
@@ -86,6 +144,65 @@ impl Explorer {
         true
     }
 
+    /// Goes on to a "normal point", then looks at the frontier from there and drives up to it.
+    ///
+    /// The frontier belongs to a volume elsewhere, so it is not in view as a candidate; without this
+    /// the robot would be sent back and choose the same point again.
+    fn go_behind(
+        &mut self,
+        robot: &mut dyn Robot,
+        params: &RapidParams,
+        probe: &mut dyn ExploreProbe,
+    ) -> bool {
+        let Some(behind) = self.rapid.behind.take() else { return false };
+        if let Some(point) = behind.point_in_body
+            && point.coords.norm() >= params.arrival_m
+            && let Some(moved) = self.step_to(robot, point, params, probe)
+        {
+            let behind = behind.moved(&moved);
+            self.rapid.behind = (behind.moves < 12).then_some(behind);
+            return true;
+        }
+        let goal = behind.goal_in_body;
+        let heading_rad = goal.y.atan2(goal.x);
+        if heading_rad.abs() > params.turn_tolerance_rad && self.rapid.turns_here == 0 {
+            self.rapid.turns_here += 1;
+            self.turn(robot, heading_rad, probe);
+            self.scan(robot, probe);
+            let turned = Se2::from_angle(heading_rad);
+            self.rapid.behind = Some(Behind { point_in_body: None, ..behind.moved(&turned) });
+            return true;
+        }
+        if behind.moves < 12
+            && goal.coords.norm() >= params.arrival_m
+            && let Some(moved) = self.step_to(robot, goal, params, probe)
+        {
+            self.rapid.behind = Some(Behind { point_in_body: None, ..behind.moved(&moved) });
+            return true;
+        }
+        // Seen from the normal point or from as near as can be: what is left there stays.
+        self.give_up(&goal, GiveUp::NothingNew, params, probe);
+        false
+    }
+
+    /// One move towards a point in view, if any clearance allows it; returns the motion made.
+    fn step_to(
+        &mut self,
+        robot: &mut dyn Robot,
+        to_in_body: Point2,
+        params: &RapidParams,
+        probe: &mut dyn ExploreProbe,
+    ) -> Option<Se2> {
+        let motion = params.clearances_m.iter().enumerate().find_map(|(level, &clearance_m)| {
+            self.allowed(0, to_in_body, clearance_m, level, params)
+        })?;
+        let step_m = to_in_body.coords.norm().min(motion.at_most_m);
+        self.rapid.turns_here = 0;
+        self.turn(robot, motion.heading_rad, probe);
+        self.forward(robot, step_m, probe);
+        Some(Se2::from_angle(motion.heading_rad) * Se2::new(step_m, 0.0, 0.0))
+    }
+
     /// Acts on the frontiers in view; false when all that happened is that goals were given up.
     fn react(
         &mut self,
@@ -95,7 +212,8 @@ impl Explorer {
         probe: &mut dyn ExploreProbe,
     ) -> bool {
         self.change_state(State::Reactive, probe);
-        let motion = self.choose(candidates, params, probe);
+        let in_vain = self.rapid.in_vain == Some(self.standing.vertex);
+        let motion = if in_vain { None } else { self.choose(candidates, params, probe) };
         let Some(motion) = motion else {
             for candidate in candidates {
                 self.give_up(&candidate.goals_in_body[0], GiveUp::Blocked, params, probe);
@@ -125,6 +243,12 @@ impl Explorer {
         }
         let step_m = distance_m.min(motion.at_most_m);
         self.rapid.turns_here = 0;
+        if let Some(goal_in_body) = motion.behind_in_body {
+            let point_in_body = Some(motion.to_in_body);
+            let behind = Behind { point_in_body, goal_in_body, moves: 0 };
+            let turned = Se2::from_angle(if must_turn { motion.heading_rad } else { 0.0 });
+            self.rapid.behind = Some(behind.moved(&(turned * Se2::new(step_m, 0.0, 0.0))));
+        }
         let ahead = Point2::new(distance_m - step_m, 0.0);
         let moves = self.rapid.pursuit.map_or(0, |(_, moves)| moves);
         self.rapid.pursuit = Some((ahead, moves + 1));
@@ -232,7 +356,8 @@ impl Explorer {
             if point.coords.norm() < 2.0 * params.arrival_m {
                 return None;
             }
-            self.allowed(candidate, point, clearance_m, level, params)
+            let motion = self.allowed(candidate, point, clearance_m, level, params)?;
+            Some(Motion { behind_in_body: Some(of.goals_in_body[0]), ..motion })
         })
     }
 
@@ -254,8 +379,8 @@ impl Explorer {
         } else {
             to_in_body
         };
-        let kept_m = self.maps[0].clearance(&self.standing, &first, clearance_m);
-        (kept_m >= clearance_m).then(|| towards(candidate, to_in_body, at_most_m))
+        let clearance = self.maps[0].clearance(&self.standing, &first);
+        clearance.keeps(clearance_m).then(|| towards(candidate, to_in_body, at_most_m))
     }
 
     /// Nothing in view: the nearest frontier elsewhere, or the end.
@@ -279,6 +404,12 @@ impl Explorer {
         match route {
             Route::Repeat(mut legs) => {
                 legs.reverse();
+                if let Some(&(goal, _)) = legs.first() {
+                    let left_m = self.maps[0].frontier_at(goal);
+                    let sent = self.rapid.sent.entry(goal).or_insert((0, f64::INFINITY));
+                    *sent = if left_m < sent.1 - 1e-6 { (1, left_m) } else { (sent.0 + 1, left_m) };
+                    self.rapid.in_vain = (sent.0 > params.visits_in_vain).then_some(goal);
+                }
                 self.rapid.way = legs;
                 if !self.follow_way(robot, params, probe) {
                     // The goal is here, but nothing of it is in view: it cannot be acted on.
@@ -305,8 +436,8 @@ impl Explorer {
                 }
                 // Unseen directions are looked at first: the map may believe in them wrongly.
                 let motion = towards(0, *point, params.step_m);
-                let whole_m = self.maps[0].clearance(&self.standing, point, clearance_m);
-                let near = distance_m <= params.step_m || whole_m >= clearance_m;
+                let whole = self.maps[0].clearance(&self.standing, point);
+                let near = distance_m <= params.step_m || whole.keeps(clearance_m);
                 if !near {
                     continue;
                 }
@@ -348,7 +479,7 @@ impl Explorer {
 
 fn towards(candidate: usize, to_in_body: Point2, at_most_m: f64) -> Motion {
     let heading_rad = to_in_body.y.atan2(to_in_body.x);
-    Motion { candidate, to_in_body, at_most_m, heading_rad }
+    Motion { candidate, to_in_body, at_most_m, heading_rad, behind_in_body: None }
 }
 
 fn length_m(route: &Route) -> f64 {

@@ -34,6 +34,31 @@ pub struct Candidate {
     pub tag: u64,
 }
 
+/// How near a straight motion comes to known obstacles, metres.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Clearance {
+    /// At its start.
+    pub at_start_m: f64,
+    /// The least along all of it; 0 where it leaves known free space.
+    pub along_m: f64,
+    /// At its end.
+    pub at_end_m: f64,
+}
+
+impl Clearance {
+    /// Leaves known free space.
+    pub const NONE: Self = Self { at_start_m: 0.0, along_m: 0.0, at_end_m: 0.0 };
+
+    /// Whether the motion keeps a distance; or, where it starts nearer than that, gets no nearer on
+    /// the way and ends at that distance. A robot that was pushed to a wall can so leave it.
+    pub fn keeps(&self, least_m: f64) -> bool {
+        let away = self.along_m > 0.0
+            && self.along_m >= 0.99 * self.at_start_m
+            && self.at_end_m >= least_m;
+        self.along_m >= least_m || (self.at_start_m < least_m && away)
+    }
+}
+
 /// What is left to explore, as the map believes.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Frontier {
@@ -81,15 +106,19 @@ pub trait ExplorationMap {
     /// The frontiers in view, in no particular order; `out` is overwritten.
     fn in_view(&mut self, standing: &Standing, out: &mut Vec<Candidate>);
 
-    /// Distance from the straight motion `to_in_body` to the nearest known obstacle, metres, at most
-    /// `cap_m`; 0 where the motion leaves known free space.
-    fn clearance(&mut self, standing: &Standing, to_in_body: &Point2, cap_m: f64) -> f64;
+    /// Frontiers of other places nearby that lie in directions not looked into from here: turning
+    /// may be enough to settle them. `out` is overwritten.
+    fn around(&mut self, standing: &Standing, out: &mut Vec<Candidate>);
+
+    /// How near the straight motion `to_in_body` comes to known obstacles.
+    fn clearance(&mut self, standing: &Standing, to_in_body: &Point2) -> Clearance;
 
     /// The way to the nearest frontier, or `None` if none is left that can be reached.
     fn route(&mut self, standing: &Standing, clearance_m: f64) -> Option<Route>;
 
-    /// Whether a vertex still has frontier that counts, so that a way to it is worth going on with.
-    fn is_worth_visiting(&self, vertex: VertexId) -> bool;
+    /// Length of the frontier that counts at a vertex, metres; 0 means that a way to it is not worth
+    /// going on with.
+    fn frontier_at(&self, vertex: VertexId) -> f64;
 
     /// The robot got as near to the frontier at `goal_in_body` as it may and looked, or found no way
     /// to it at all: whatever frontier is left within `radius_m` of it does not count from now on.

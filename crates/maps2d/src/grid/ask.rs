@@ -6,11 +6,33 @@ use probe::VertexId;
 use search::{Graph, dijkstra_nearest};
 
 use super::{Cell, CellState, Cells, GridMap};
+use crate::volume::LocalVolume;
 use crate::{Candidate, Route, Standing};
 
 impl GridMap {
     /// Frontier cells whose centre lies in what is seen from where the robot stands.
     pub(super) fn cells_in_view(&self, standing: &Standing, out: &mut Vec<Candidate>) {
+        self.near_cells(standing, out, |view, centre_in_anchor, here| {
+            here || view.polygon.contains(centre_in_anchor)
+        });
+    }
+
+    /// Frontier cells in reach of the sensor in directions that were not looked into from here.
+    pub(super) fn cells_around(&self, standing: &Standing, out: &mut Vec<Candidate>) {
+        self.near_cells(standing, out, |view, centre_in_anchor, here| {
+            !here && view.is_unseen_towards(centre_in_anchor)
+        });
+        for candidate in out {
+            candidate.turn_only = true;
+        }
+    }
+
+    fn near_cells(
+        &self,
+        standing: &Standing,
+        out: &mut Vec<Candidate>,
+        counts: impl Fn(&LocalVolume, &Point2, bool) -> bool,
+    ) {
         out.clear();
         if self.view_at != Some(standing.vertex) {
             return;
@@ -26,7 +48,7 @@ impl GridMap {
                 let centre_in_body = odom_from_body.inverse_transform(&self.cells.centre(cell));
                 let centre_in_anchor = standing.vertex_from_body.transform(&centre_in_body);
                 let here = self.cells.at(&body) == cell;
-                if here || self.view.polygon.contains(&centre_in_anchor) {
+                if counts(&self.view, &centre_in_anchor, here) {
                     out.push(Candidate {
                         goals_in_body: [centre_in_body; 3],
                         normal_in_body: Vector2::zeros(),

@@ -10,7 +10,7 @@ use sensing::Scan;
 
 use super::{Cell, Cells, GridEvent};
 use crate::volume::{LocalVolume, Samples, VolumeParams, build};
-use crate::{Candidate, ExplorationMap, Frontier, MapProbe, Route, Standing};
+use crate::{Candidate, Clearance, ExplorationMap, Frontier, MapProbe, Route, Standing};
 
 /// Parameters of the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -148,11 +148,15 @@ impl ExplorationMap for GridMap {
         self.cells_in_view(standing, out);
     }
 
-    fn clearance(&mut self, standing: &Standing, to_in_body: &Point2, cap_m: f64) -> f64 {
+    fn around(&mut self, standing: &Standing, out: &mut Vec<Candidate>) {
+        self.cells_around(standing, out);
+    }
+
+    fn clearance(&mut self, standing: &Standing, to_in_body: &Point2) -> Clearance {
         if self.view_at != Some(standing.vertex) {
-            return 0.0;
+            return Clearance::NONE;
         }
-        self.view.motion_clearance(&standing.vertex_from_body.transform(to_in_body), cap_m)
+        self.view.motion_clearance(&standing.vertex_from_body.transform(to_in_body))
     }
 
     fn route(&mut self, standing: &Standing, clearance_m: f64) -> Option<Route> {
@@ -160,8 +164,8 @@ impl ExplorationMap for GridMap {
     }
 
     /// The grid leads to cells, not to vertices.
-    fn is_worth_visiting(&self, _vertex: VertexId) -> bool {
-        false
+    fn frontier_at(&self, _vertex: VertexId) -> f64 {
+        0.0
     }
 
     fn give_up(

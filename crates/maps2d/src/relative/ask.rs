@@ -3,7 +3,7 @@
 use geometry::{Point2, Vector2};
 
 use super::{Chain, RelativeMap, VolumeState};
-use crate::{Candidate, MapProbe, Route, Standing};
+use crate::{Candidate, Clearance, MapProbe, Route, Standing};
 
 /// Where along a run of frontier a goal is put: the middle first, then the quarters.
 const GOAL_SHARES: [f64; 3] = [0.5, 0.25, 0.75];
@@ -17,7 +17,7 @@ impl RelativeMap {
             for spoke in [true, false] {
                 let run = Run::of(state, chain, spoke);
                 // A short end of a chain is seen on the way to the rest of it.
-                if run.length_m < 0.5 * self.params.sliver_m.min(chain.length_m) {
+                if run.length_m < 0.4 * self.params.sliver_m.min(chain.length_m) {
                     continue;
                 }
                 let goals = GOAL_SHARES.map(|share| {
@@ -35,6 +35,36 @@ impl RelativeMap {
         }
     }
 
+    /// Frontier of other volumes in scope that lies where nobody has looked from here.
+    pub(super) fn candidates_around(&mut self, standing: &Standing, out: &mut Vec<Candidate>) {
+        out.clear();
+        self.take_scope(standing.vertex, &mut probe::Off);
+        let Some(here) = self.volume(standing.vertex) else { return };
+        let reach_m = here.volume.radius_m();
+        for row in self.scope.placed().iter().skip(1) {
+            let Some(state) = self.volume(row.vertex) else { continue };
+            let apart_m = row.root_from_vertex.translation.norm();
+            if !state.counts() || apart_m > reach_m + state.volume.radius_m() {
+                continue;
+            }
+            for (tag, chain) in state.counting_chains(self.params.sliver_m).enumerate() {
+                for part in &chain.parts {
+                    let edge = &state.volume.frontier[part.edge];
+                    let middle = row.root_from_vertex.transform(&edge.at(part.span.middle()));
+                    if here.volume.is_unseen_towards(&middle) {
+                        out.push(Candidate {
+                            goals_in_body: [standing.vertex_from_body.inverse_transform(&middle); 3],
+                            normal_in_body: Vector2::zeros(),
+                            length_m: part.length_m,
+                            turn_only: true,
+                            tag: (u64::from(row.vertex.0) << 32) | tag as u64,
+                        });
+                    }
+                }
+            }
+        }
+    }
+
     /// How near the straight motion from the anchor comes to what is solid in the volume there.
     ///
     /// Only the volume that the robot stands on is asked: it is the one without drift.
@@ -42,10 +72,9 @@ impl RelativeMap {
         &self,
         standing: &Standing,
         to_in_body: &Point2,
-        cap_m: f64,
-    ) -> f64 {
-        let Some(state) = self.volume(standing.vertex) else { return 0.0 };
-        state.volume.motion_clearance(&standing.vertex_from_body.transform(to_in_body), cap_m)
+    ) -> Clearance {
+        let Some(state) = self.volume(standing.vertex) else { return Clearance::NONE };
+        state.volume.motion_clearance(&standing.vertex_from_body.transform(to_in_body))
     }
 
     /// The way along the graph to the nearest vertex with frontier that counts ([ISRR19] 5).

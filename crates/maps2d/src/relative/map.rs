@@ -7,7 +7,7 @@ use probe::{EdgeId, IdVec, VertexId};
 use sensing::Scan;
 
 use super::{ConsolidationEvent, PathBook, RelativeParams, VolumeState};
-use crate::{Candidate, ExplorationMap, Frontier, MapProbe, Route, Standing};
+use crate::{Candidate, Clearance, ExplorationMap, Frontier, MapProbe, Route, Standing};
 
 /// Local volumes on a pose graph, with consolidated frontiers ([ISRR19] 4).
 ///
@@ -162,16 +162,20 @@ impl ExplorationMap for RelativeMap {
         self.candidates(standing, out);
     }
 
-    fn clearance(&mut self, standing: &Standing, to_in_body: &Point2, cap_m: f64) -> f64 {
-        self.motion_clearance(standing, to_in_body, cap_m)
+    fn around(&mut self, standing: &Standing, out: &mut Vec<Candidate>) {
+        self.candidates_around(standing, out);
+    }
+
+    fn clearance(&mut self, standing: &Standing, to_in_body: &Point2) -> Clearance {
+        self.motion_clearance(standing, to_in_body)
     }
 
     fn route(&mut self, standing: &Standing, _clearance_m: f64) -> Option<Route> {
         self.way_to_frontier(standing)
     }
 
-    fn is_worth_visiting(&self, vertex: VertexId) -> bool {
-        self.volume(vertex).is_some_and(VolumeState::counts)
+    fn frontier_at(&self, vertex: VertexId) -> f64 {
+        self.volume(vertex).map_or(0.0, |state| state.open_m)
     }
 
     fn give_up(

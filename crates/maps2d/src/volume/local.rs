@@ -6,6 +6,8 @@ use geometry::Point2;
 use geometry::planar::StarPolygon;
 use geometry::planar::{point_segment_distance, segment_segment_distance};
 
+use crate::Clearance;
+
 /// Which boundary edge of a volume: a chord, or one of the two spokes of a gap.
 ///
 /// Even keys `2 i` are the chord after vertex `i`, or the spoke from it to the sensor; odd keys
@@ -93,23 +95,32 @@ impl LocalVolume {
         self.polygon.outer_radius()
     }
 
-    /// How near the straight motion from the anchor to `to_in_anchor` comes to what is solid here,
-    /// metres, at most `cap_m`; 0 where the motion leaves the view.
-    pub fn motion_clearance(&self, to_in_anchor: &Point2, cap_m: f64) -> f64 {
+    /// How near the straight motion from the anchor to `to_in_anchor` comes to what is solid here.
+    pub fn motion_clearance(&self, to_in_anchor: &Point2) -> Clearance {
         let reach_m = self.polygon.radius_towards(to_in_anchor);
         if to_in_anchor.coords.norm() > reach_m + 1e-9 {
-            return 0.0;
+            return Clearance::NONE;
         }
         let origin = Point2::origin();
-        let mut least_m = cap_m;
-        for wall in &self.obstacles {
-            let apart_m = segment_segment_distance(&origin, to_in_anchor, &wall.from, &wall.to);
-            least_m = least_m.min(apart_m);
+        let posts = self.posts.iter().map(|post| (*post, *post));
+        let walls = self.obstacles.iter().map(|wall| (wall.from, wall.to)).chain(posts);
+        let mut clearance =
+            Clearance { at_start_m: f64::MAX, along_m: f64::MAX, at_end_m: f64::MAX };
+        for (from, to) in walls {
+            let along_m = segment_segment_distance(&origin, to_in_anchor, &from, &to);
+            clearance.along_m = clearance.along_m.min(along_m);
+            let start_m = point_segment_distance(&origin, &from, &to);
+            clearance.at_start_m = clearance.at_start_m.min(start_m);
+            let end_m = point_segment_distance(to_in_anchor, &from, &to);
+            clearance.at_end_m = clearance.at_end_m.min(end_m);
         }
-        for post in &self.posts {
-            least_m = least_m.min(point_segment_distance(post, &origin, to_in_anchor));
-        }
-        least_m
+        clearance
+    }
+
+    /// Whether a point lies in a direction that was not looked into, within the reach of the view.
+    pub fn is_unseen_towards(&self, point_in_anchor: &Point2) -> bool {
+        let near = point_in_anchor.coords.norm() <= self.radius_m();
+        near && self.polygon.radius_towards(point_in_anchor) == 0.0
     }
 
     /// Memory held on the heap, bytes.
