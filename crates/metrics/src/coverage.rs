@@ -10,7 +10,7 @@ use crate::view_fill::RowFill;
 /// When a cell counts as seen.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Rule {
-    /// A ray touches the cell on its way from the sensor to the hit ([ISRR19] sec. 6).
+    /// A ray touches the cell on its way from the sensor to the hit (\[ISRR19\] sec. 6).
     Rays,
     /// Its centre lies in the true view polygon, which joins the ends of neighbouring rays: for
     /// cells finer than the spacing of the rays.
@@ -146,7 +146,7 @@ impl Coverage {
         self.cells_reachable > 0 && self.cells_seen == self.cells_reachable
     }
 
-    /// d_exp of [ISRR19] sec. 6: the mean over the reachable cells of the distance at which each
+    /// d_exp of \[ISRR19\] sec. 6: the mean over the reachable cells of the distance at which each
     /// was first seen, metres; `None` until all were.
     pub fn d_exp_m(&self) -> Option<f64> {
         self.is_complete().then(|| self.first_seen_sum_m / self.cells_reachable as f64)

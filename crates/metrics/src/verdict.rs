@@ -16,10 +16,10 @@ pub struct Verdict {
     /// Distance driven, metres.
     pub distance_m: f64,
     /// Distance at which the robot believed that it was done, metres; `None` unless it did so and
-    /// everything was seen ([ISRR19] sec. 6).
+    /// everything was seen (\[ISRR19\] sec. 6).
     pub d_max_m: Option<f64>,
     /// Mean distance at first sight of a cell, metres; `None` unless the robot believed that it
-    /// was done and everything was seen ([ISRR19] sec. 6).
+    /// was done and everything was seen (\[ISRR19\] sec. 6).
     pub d_exp_m: Option<f64>,
     /// Free cells, reachable or not.
     pub cells_total: usize,

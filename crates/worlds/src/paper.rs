@@ -1,4 +1,4 @@
-//! The three places of the paper's experiments ([ISRR19] fig. 6 to 8, sec. 6), as recovered from
+//! The three places of the paper's experiments (\[ISRR19\] fig. 6 to 8, sec. 6), as recovered from
 //! its vector figures.
 //!
 //! All have 1 m cells and a border of solid cells one cell wide. The starts of `open` and `maze`

@@ -10,7 +10,7 @@ use super::random::Purpose;
 const STANDOFF_M: f64 = 1e-3;
 
 impl SimRobot {
-    /// One forward motion in truth: the command, then its noise ([ISRR19] 6.1).
+    /// One forward motion in truth: the command, then its noise (\[ISRR19\] 6.1).
     pub(super) fn drive_forward(&mut self, distance_m: f64) {
         let command = self.world_from_body.rotation * Vector2::new(distance_m, 0.0);
         if self.displace(command) {

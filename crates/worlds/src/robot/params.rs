@@ -1,4 +1,4 @@
-//! What a simulated robot is made of. The defaults are those of [ISRR19] sec. 6 at α = 1.
+//! What a simulated robot is made of. The defaults are those of \[ISRR19\] sec. 6 at α = 1.
 
 /// All parameters of a simulated robot.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -23,7 +23,7 @@ pub struct SensorParams {
     pub range_m: f64,
     /// Number of rays; a single ray looks ahead.
     pub rays: usize,
-    /// Standard deviation of a measured range, metres. Off in [ISRR19].
+    /// Standard deviation of a measured range, metres. Off in \[ISRR19\].
     pub range_sigma_m: f64,
 }
 
@@ -50,18 +50,18 @@ impl SensorParams {
 /// How the true motion differs from the commanded one, which is what odometry reports.
 ///
 /// A forward motion of d metres ends in a pose error with mean `scale · bias · d` and variance
-/// `scale² · sigma² · d` per component, in the body's frame ([ISRR19] 6.1). Turns are exact.
+/// `scale² · sigma² · d` per component, in the body's frame (\[ISRR19\] 6.1). Turns are exact.
 #[derive(Clone, Debug, PartialEq)]
 pub struct OdometryParams {
     /// Standard deviation along each axis, metres per square root of a metre.
     pub sigma_translation: f64,
     /// Standard deviation of the heading, radians per square root of a metre.
     pub sigma_rotation_rad: f64,
-    /// Multiplies every error; the α of [ISRR19].
+    /// Multiplies every error; the α of \[ISRR19\].
     pub scale: f64,
-    /// Mean error along the heading, metres per metre. Off in [ISRR19].
+    /// Mean error along the heading, metres per metre. Off in \[ISRR19\].
     pub bias_translation: f64,
-    /// Mean error of the heading, radians per metre. Off in [ISRR19].
+    /// Mean error of the heading, radians per metre. Off in \[ISRR19\].
     pub bias_rotation_rad: f64,
 }
 
@@ -82,7 +82,7 @@ impl Default for OdometryParams {
 pub struct PlaceParams {
     /// Whether places are recognised at all.
     pub enabled: bool,
-    /// True distance below which a place can be recognised, metres; d_pr in [ISRR19].
+    /// True distance below which a place can be recognised, metres; d_pr in \[ISRR19\].
     pub radius_m: f64,
     /// A place nearer than this many radii along the robot's own pose graph is no news and is not
     /// reported.
@@ -95,7 +95,7 @@ pub struct PlaceParams {
     pub sigma_translation_m: f64,
     /// Standard deviation of the reported relative heading, radians.
     pub sigma_rotation_rad: f64,
-    /// At most so many true places per call, the nearest first; `None` reports all, as [ISRR19].
+    /// At most so many true places per call, the nearest first; `None` reports all, as \[ISRR19\].
     pub max_matches: Option<usize>,
 }
 
@@ -114,7 +114,7 @@ impl Default for PlaceParams {
     }
 }
 
-/// The robot's body, and how well it drives along known legs. All off in [ISRR19].
+/// The robot's body, and how well it drives along known legs. All off in \[ISRR19\].
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct DriveParams {
     /// Radius of the disc that must not touch an obstacle, metres; 0 is a point.
@@ -124,6 +124,6 @@ pub struct DriveParams {
     /// Standard deviation of the heading at the end of teach and repeat, radians.
     pub repeat_sigma_rotation_rad: f64,
     /// After a forward motion, a robot this near to a known vertex in line of sight is put onto it
-    /// ([Zie18] 3.1), metres; `None` never does.
+    /// (\[Zie18\] 3.1), metres; `None` never does.
     pub snap_radius_m: Option<f64>,
 }

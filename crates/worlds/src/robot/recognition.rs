@@ -1,4 +1,4 @@
-//! Which known places the robot recognises ([ISRR19] sec. 6).
+//! Which known places the robot recognises (\[ISRR19\] sec. 6).
 
 use pose::Se2;
 use probe::VertexId;

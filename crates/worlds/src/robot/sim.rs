@@ -105,7 +105,7 @@ impl SimRobot {
         &self.tally
     }
 
-    /// Puts the robot onto the nearest vertex that it comes near to ([Zie18] 3.1).
+    /// Puts the robot onto the nearest vertex that it comes near to (\[Zie18\] 3.1).
     ///
     /// The vertex that it just left does not count, else it could never leave. The heading stays.
     fn snap(&mut self) -> Option<(VertexId, Se2)> {
@@ -180,7 +180,7 @@ fn turn_between(world_from_a: &Se2, world_from_b: &Se2) -> Se2 {
 }
 
 impl Robot for SimRobot {
-    /// Turns exactly: turning is noiseless in the benchmark ([ISRR19] 6.1).
+    /// Turns exactly: turning is noiseless in the benchmark (\[ISRR19\] 6.1).
     fn turn(&mut self, angle_rad: f64) -> Odometry {
         let turn = Se2::from_angle(angle_rad);
         self.world_from_body = self.world_from_body * turn;
@@ -260,7 +260,7 @@ impl Robot for SimRobot {
     }
 
     /// Known places within the radius of true distance, in line of sight, and at least
-    /// `exclude_factor` radii away along the robot's own graph ([ISRR19] sec. 6), by id.
+    /// `exclude_factor` radii away along the robot's own graph (\[ISRR19\] sec. 6), by id.
     ///
     /// The graph holds the ways driven between places marked one after the other, and the places
     /// reported before this call. Cost: the places within the radius, and the vertices within the
