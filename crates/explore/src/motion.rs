@@ -93,19 +93,22 @@ impl Explorer {
         self.standing.vertex = vertex;
         self.standing.vertex_from_body = Se2::identity();
         probe.emit(GraphEvent::VertexAdded { vertex, odom_from_vertex });
+        let mut edges: Vec<EdgeId> = Vec::new();
         if let Some(step) = here_from_there {
-            self.add_edge(before, vertex, step, EdgeKind::Odometry, probe);
+            edges.extend(self.add_edge(before, vertex, step, EdgeKind::Odometry, probe));
         }
         for place in robot.recognize() {
             let kind = EdgeKind::Place;
-            if self.add_edge(place.vertex, vertex, place.known_from_current, kind, probe).is_some()
-            {
-                self.place_edges += 1;
-            }
+            let edge = self.add_edge(place.vertex, vertex, place.known_from_current, kind, probe);
+            self.place_edges += u64::from(edge.is_some());
+            edges.extend(edge);
+        }
+        for map in &mut self.maps {
+            map.edges_added(&self.graph, &edges, &mut *probe);
         }
     }
 
-    /// Adds an edge and tells the maps; an edge that the graph refuses is left out.
+    /// Adds an edge to the graph; one that the graph refuses is left out.
     fn add_edge(
         &mut self,
         a: VertexId,
@@ -116,9 +119,6 @@ impl Explorer {
     ) -> Option<EdgeId> {
         let edge = self.graph.add_edge(a, b, a_from_b, kind).ok()?;
         probe.emit(GraphEvent::EdgeAdded { edge, kind, a, b, a_from_b });
-        for map in &mut self.maps {
-            map.edge_added(&self.graph, edge, &mut *probe);
-        }
         Some(edge)
     }
 

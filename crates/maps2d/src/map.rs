@@ -88,8 +88,8 @@ pub trait ExplorationMap {
     /// The name of the representation, as in configs and results: `relative`, `grid`, ...
     fn kind(&self) -> &'static str;
 
-    /// An edge was added to `graph`; its vertices may have no scan yet.
-    fn edge_added(&mut self, graph: &PoseGraph, edge: EdgeId, probe: &mut dyn MapProbe);
+    /// Edges were added to `graph`, all with one vertex in common; it may have no scan yet.
+    fn edges_added(&mut self, graph: &PoseGraph, edges: &[EdgeId], probe: &mut dyn MapProbe);
 
     /// A place edge of `graph` was withdrawn.
     fn edge_withdrawn(&mut self, graph: &PoseGraph, edge: EdgeId, probe: &mut dyn MapProbe);

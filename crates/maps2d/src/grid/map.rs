@@ -97,11 +97,13 @@ impl ExplorationMap for GridMap {
     }
 
     /// Only odometry moves the estimate; recognised places are not used by the plain grid.
-    fn edge_added(&mut self, graph: &PoseGraph, edge: EdgeId, _probe: &mut dyn MapProbe) {
-        let edge = *graph.edge(edge);
-        self.cover(edge.a.max(edge.b));
-        if edge.kind == EdgeKind::Odometry {
-            self.odom_from_vertex[edge.b] = self.odom_from_vertex[edge.a] * edge.a_from_b;
+    fn edges_added(&mut self, graph: &PoseGraph, edges: &[EdgeId], _probe: &mut dyn MapProbe) {
+        for &edge in edges {
+            let edge = *graph.edge(edge);
+            self.cover(edge.a.max(edge.b));
+            if edge.kind == EdgeKind::Odometry {
+                self.odom_from_vertex[edge.b] = self.odom_from_vertex[edge.a] * edge.a_from_b;
+            }
         }
     }
 

@@ -19,8 +19,10 @@ impl RelativeMap {
             if !self.is_active(row) {
                 continue;
             }
-            pairs.push((0, row));
-            if row != 0 && self.row_has_open(row) {
+            if self.may_touch(0, row) {
+                pairs.push((0, row));
+            }
+            if row != 0 && self.row_has_open(row) && self.may_touch(row, 0) {
                 pairs.push((row, 0));
             }
         }
@@ -28,64 +30,88 @@ impl RelativeMap {
         self.consolidate(probe);
     }
 
-    /// An edge was added: only pairs whose shortest path it changed are compared.
+    /// Edges were added at one vertex: only pairs whose shortest path they changed are compared.
     ///
-    /// Seen from the newer end, these are the pairs of a vertex that came nearer with one that did
-    /// not: two that both came nearer share the new edge on their ways from the root, so it is not
-    /// on the path between them.
-    pub(super) fn take_edge(&mut self, graph: &PoseGraph, id: EdgeId, probe: &mut dyn MapProbe) {
-        let edge = *graph.edge(id);
-        self.book.learn(id, edge.kind);
-        self.cover(edge.a.max(edge.b));
-        let root = self.skeleton.resolve(edge.a.max(edge.b)).0;
-        let is_leaf = self.skeleton.links(root).is_empty();
-        if !is_leaf {
-            self.take_scope(root, &mut probe::Off);
+    /// Seen from that vertex, the root, these are pairs of which at least one came nearer, and whose
+    /// ways from the root part at the root itself: where two ways share their first link, the path
+    /// between the two does not pass the root, and no new edge is on it.
+    pub(super) fn take_edges(
+        &mut self,
+        graph: &PoseGraph,
+        edges: &[EdgeId],
+        probe: &mut dyn MapProbe,
+    ) {
+        let Some(&first) = edges.first() else { return };
+        let first = graph.edge(first);
+        let shared = |v: VertexId| edges.iter().all(|&e| [graph.edge(e).a, graph.edge(e).b].contains(&v));
+        let newer = first.a.max(first.b);
+        let vertex = if shared(newer) { newer } else { first.a.min(first.b) };
+        for &id in edges {
+            let edge = graph.edge(id);
+            self.book.learn(id, edge.kind);
+            self.cover(edge.a.max(edge.b));
         }
-        let Some(_) = self.skeleton.add_edge(id, &edge) else { return };
-        self.scope_is_fresh = false;
-        if is_leaf {
-            // The first edge of a vertex: every pair that it brings has the vertex itself in it.
-            let has_volume = self.volumes[root].is_some();
-            if has_volume {
-                self.compare_with_scope(root, probe);
-            }
-            return;
-        }
+        let root = self.skeleton.resolve(vertex).0;
+        self.take_scope(root, &mut probe::Off);
         let before = std::mem::take(&mut self.scope);
+        for &id in edges {
+            self.skeleton.add_edge(id, graph.edge(id));
+        }
+        self.scope_is_fresh = false;
         self.take_scope(root, probe);
         self.compare_across(&before, probe);
     }
 
-    /// Compares every vertex whose distance from the root is not what it was in `before` with every
-    /// vertex whose distance is.
+    /// Compares the pairs of which at least one is not as far from the root as it was in `before`,
+    /// and whose ways part at the root.
     pub(super) fn compare_across(&mut self, before: &Scope, probe: &mut dyn MapProbe) {
         let mut old: Vec<(VertexId, f64)> =
             before.placed().iter().map(|row| (row.vertex, row.distance_m)).collect();
         old.sort_unstable_by_key(|row| row.0);
-        let (mut moved, mut stayed): (Vec<u32>, Vec<u32>) = (Vec::new(), Vec::new());
-        for (i, row) in self.scope.placed().iter().enumerate() {
-            let i = i as u32;
-            if !self.is_active(i) {
-                continue;
-            }
+        let rows = self.scope.placed();
+        // The row right after the root on the way to each row; the root is its own.
+        let mut branch: Vec<u32> = Vec::with_capacity(rows.len());
+        let (mut moved, mut active): (Vec<bool>, Vec<u32>) = (Vec::new(), Vec::new());
+        for (i, row) in rows.iter().enumerate() {
+            branch.push(match row.parent {
+                None | Some(0) => i as u32,
+                Some(parent) => branch[parent as usize],
+            });
             let was = old.binary_search_by_key(&row.vertex, |o| o.0).ok().map(|k| old[k].1);
-            if was == Some(row.distance_m) { stayed.push(i) } else { moved.push(i) }
+            moved.push(was != Some(row.distance_m));
+            if self.is_active(i as u32) {
+                active.push(i as u32);
+            }
         }
         let mut pairs = std::mem::take(&mut self.work.pairs);
         pairs.clear();
-        for &a in &moved {
-            for &b in &stayed {
-                if self.row_has_open(a) {
+        for &a in &active {
+            if !self.row_has_open(a) {
+                continue;
+            }
+            for &b in &active {
+                let parted = branch[a as usize] != branch[b as usize];
+                let changed = moved[a as usize] || moved[b as usize];
+                if parted && changed && self.may_touch(a, b) {
                     pairs.push((a, b));
-                }
-                if self.row_has_open(b) {
-                    pairs.push((b, a));
                 }
             }
         }
         self.work.pairs = pairs;
         self.consolidate(probe);
+    }
+
+    /// Whether the open frontier of row `a` comes near the volume of row `b` at all.
+    fn may_touch(&self, a: u32, b: u32) -> bool {
+        let rows = self.scope.placed();
+        let (a, b) = (&rows[a as usize], &rows[b as usize]);
+        let (Some(of_a), Some(of_b)) = (self.volume(a.vertex), self.volume(b.vertex)) else {
+            return false;
+        };
+        let (centre, radius_m) = of_a.open_disc;
+        let apart = a.root_from_vertex.transform(&centre) - b.root_from_vertex.translation;
+        let reach_m = radius_m + of_b.volume.radius_m() + self.params.wall_closing_m;
+        apart.coords.norm_squared() <= reach_m * reach_m
     }
 
     fn is_active(&self, row: u32) -> bool {

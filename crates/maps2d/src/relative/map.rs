@@ -130,8 +130,8 @@ impl ExplorationMap for RelativeMap {
         "relative"
     }
 
-    fn edge_added(&mut self, graph: &PoseGraph, edge: EdgeId, probe: &mut dyn MapProbe) {
-        self.take_edge(graph, edge, probe);
+    fn edges_added(&mut self, graph: &PoseGraph, edges: &[EdgeId], probe: &mut dyn MapProbe) {
+        self.take_edges(graph, edges, probe);
     }
 
     fn edge_withdrawn(&mut self, graph: &PoseGraph, edge: EdgeId, probe: &mut dyn MapProbe) {

@@ -18,6 +18,8 @@ pub struct VolumeState {
     pub ledgers: Vec<EdgeLedger<Closing>>,
     /// The open parts that hang together.
     pub chains: Vec<Chain>,
+    /// A disc around all that is open, anchor frame: centre and radius, metres.
+    pub open_disc: (Point2, f64),
     /// Length of the chains that count, metres.
     pub open_m: f64,
     /// Length of the chains that do not, metres.
@@ -40,6 +42,7 @@ impl VolumeState {
             samples,
             ledgers,
             chains: Vec::new(),
+            open_disc: (Point2::origin(), 0.0),
             open_m: 0.0,
             sliver_m: 0.0,
             unreachable_m: 0.0,
@@ -64,6 +67,7 @@ impl VolumeState {
     /// Measures the ledgers anew.
     pub(crate) fn measure(&mut self, sliver_m: f64) {
         self.chains = chains(&self.volume, &self.ledgers);
+        self.open_disc = self.disc_around_open();
         self.open_m = 0.0;
         self.sliver_m = 0.0;
         for chain in &self.chains {
@@ -81,6 +85,26 @@ impl VolumeState {
                 }
             }
         }
+    }
+
+    fn disc_around_open(&self) -> (Point2, f64) {
+        let ends = || {
+            self.chains.iter().flat_map(|chain| &chain.parts).flat_map(|part| {
+                let edge = &self.volume.frontier[part.edge];
+                [edge.at(part.span.from), edge.at(part.span.to)]
+            })
+        };
+        let (mut low, mut high) = (Point2::new(f64::MAX, f64::MAX), Point2::new(f64::MIN, f64::MIN));
+        for end in ends() {
+            low = low.inf(&end);
+            high = high.sup(&end);
+        }
+        if low.x > high.x {
+            return (Point2::origin(), 0.0);
+        }
+        let centre = Point2::from((low.coords + high.coords) * 0.5);
+        let radius_m = ends().map(|end| (end - centre).norm()).fold(0.0, f64::max);
+        (centre, radius_m)
     }
 
     /// The chains that count.
