@@ -33,7 +33,8 @@ fn views(c: &mut Criterion) {
         let mut robot = SimRobot::new(Arc::new(world.clone()), params, 1);
         robot.scan();
         for rule in [Rule::Rays, Rule::View] {
-            let mut coverage = Coverage::new(&world, CoverageParams { cell_m: 0.25, rule });
+            let mut coverage = Coverage::new(&world, CoverageParams { cell_m: 0.25, rule })
+                .expect("the cell size is sound");
             coverage.see(robot.view(), 0.0);
             group.bench_function(BenchmarkId::new(format!("see_{rule:?}"), size * size), |b| {
                 b.iter(|| coverage.see(robot.view(), 0.0));
@@ -55,7 +56,8 @@ fn steps(c: &mut Criterion) {
         let world = World2d::from_cells("corridor", cells, start).expect("the start is free");
         let odometry = OdometryParams { scale: 0.0, ..OdometryParams::default() };
         let params = RobotParams { odometry, ..RobotParams::default() };
-        let coverage = Coverage::new(&world, CoverageParams::default());
+        let coverage =
+            Coverage::new(&world, CoverageParams::default()).expect("the cell size is sound");
         let mut robot = Witness::new(SimRobot::new(Arc::new(world), params, 1), coverage);
         let mut next = 0;
         let mut step = |robot: &mut Witness| {
@@ -75,7 +77,8 @@ fn steps(c: &mut Criterion) {
     let world = Arc::new(paper::maze());
     group.bench_function("construct_maze", |b| {
         b.iter(|| {
-            let coverage = Coverage::new(&world, CoverageParams::default());
+            let coverage =
+                Coverage::new(&world, CoverageParams::default()).expect("the cell size is sound");
             Witness::new(SimRobot::new(world.clone(), RobotParams::default(), 1), coverage)
         });
     });

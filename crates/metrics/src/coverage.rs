@@ -3,6 +3,7 @@
 use geometry::Point2;
 use worlds::{View, World2d};
 
+use crate::MetricsError;
 use crate::free_cells::FreeCells;
 use crate::traversal::touched_cells;
 use crate::view_fill::RowFill;
@@ -53,10 +54,13 @@ pub struct Coverage {
 
 impl Coverage {
     /// Nothing seen yet. Linear in the number of cells, and in the length of the walls.
-    pub fn new(world: &World2d, params: CoverageParams) -> Self {
-        let cells = FreeCells::new(world, params.cell_m);
+    ///
+    /// # Errors
+    /// [`MetricsError::CellSize`] where the cell size is not positive or makes too many cells.
+    pub fn new(world: &World2d, params: CoverageParams) -> Result<Self, MetricsError> {
+        let cells = FreeCells::new(world, params.cell_m)?;
         let count = |marks: &[bool]| marks.iter().filter(|&&mark| mark).count();
-        Self {
+        Ok(Self {
             params,
             first_seen_m: vec![f64::INFINITY; cells.free.len()],
             cells_total: count(&cells.free),
@@ -66,7 +70,7 @@ impl Coverage {
             newly_seen: Vec::new(),
             fill: RowFill::default(),
             cells,
-        }
+        })
     }
 
     /// Marks what a view saw at a driven distance. Cost: the cells within the view.

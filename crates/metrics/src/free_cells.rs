@@ -3,7 +3,11 @@
 use geometry::Point2;
 use worlds::World2d;
 
+use crate::MetricsError;
 use crate::traversal::crossed_interiors;
+
+/// Most evaluation cells: about two gigabytes.
+const MAX_CELLS: usize = 200_000_000;
 
 /// Square cells over the bounds of a place; row 0 is the lowest, indices are row-major.
 #[derive(Clone, Debug)]
@@ -18,11 +22,17 @@ pub(crate) struct FreeCells {
 
 impl FreeCells {
     /// Linear in the number of cells and in the length of the walls counted in cells.
-    pub(crate) fn new(world: &World2d, cell_m: f64) -> Self {
+    pub(crate) fn new(world: &World2d, cell_m: f64) -> Result<Self, MetricsError> {
         let (low, high) = world.bounds();
         // A whole number of cells must not become one more by rounding.
-        let count = |extent_m: f64| ((extent_m / cell_m - 1e-6).ceil().max(1.0)) as usize;
+        let count = |extent_m: f64| (extent_m / cell_m - 1e-6).ceil().max(1.0);
         let (columns, rows) = (count(high.x - low.x), count(high.y - low.y));
+        let count = columns * rows;
+        let positive = cell_m.is_finite() && cell_m > 0.0;
+        if !positive || count.is_nan() || count > MAX_CELLS as f64 {
+            return Err(MetricsError::CellSize { cell_m, cells: count, limit: MAX_CELLS });
+        }
+        let (columns, rows) = (columns as usize, rows as usize);
         let mut cells = Self {
             columns,
             rows,
@@ -44,7 +54,7 @@ impl FreeCells {
             });
         }
         cells.flood(world);
-        cells
+        Ok(cells)
     }
 
     /// Centre of a cell in the world frame.

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod coverage;
+mod error;
 mod free_cells;
 mod traversal;
 mod verdict;
@@ -8,6 +9,7 @@ mod view_fill;
 mod witness;
 
 pub use coverage::{Coverage, CoverageParams, Rule};
+pub use error::MetricsError;
 pub use verdict::Verdict;
 pub use witness::Witness;
 pub use worlds::{Tally, View};

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use geometry::{Point2, Vector2};
-use metrics::{Coverage, CoverageParams, Rule, Verdict, View, Witness};
+use metrics::{Coverage, CoverageParams, MetricsError, Rule, Verdict, View, Witness};
 use pose::Se2;
 use probe::VertexId;
 use proptest::prelude::*;
@@ -49,7 +49,7 @@ proptest! {
     fn a_cell_is_free_when_every_raster_cell_in_it_is(cells in cell_map(), k in 1..4usize) {
         let Some(world) = world(&cells) else { return Ok(()) };
         let params = CoverageParams { cell_m: cells.cell_m * k as f64, rule: Rule::Rays };
-        let coverage = Coverage::new(&world, params);
+        let coverage = Coverage::new(&world, params).expect("the cell size is sound");
         let (columns, rows) = coverage.size();
         prop_assert_eq!((columns, rows), (cells.columns.div_ceil(k), cells.rows.div_ceil(k)));
         let free: Vec<bool> =
@@ -87,7 +87,7 @@ proptest! {
     ) {
         let Some(world) = world(&cells) else { return Ok(()) };
         let cell_m = cells.cell_m;
-        let coverage = Coverage::new(&world, CoverageParams { cell_m, rule: Rule::Rays });
+        let coverage = Coverage::new(&world, CoverageParams { cell_m, rule: Rule::Rays }).expect("the cell size is sound");
         let params = RobotParams { odometry: still(), ..RobotParams::default() };
         let mut witness = Witness::new(SimRobot::new(Arc::new(world), params, seed), coverage);
         let mut crossed = vec![false; cells.solid.len()];
@@ -124,7 +124,7 @@ proptest! {
     ) {
         let Some(world) = world(&cells) else { return Ok(()) };
         let cell_m = cells.cell_m / k as f64;
-        let coverage = Coverage::new(&world, CoverageParams { cell_m, rule: Rule::View });
+        let coverage = Coverage::new(&world, CoverageParams { cell_m, rule: Rule::View }).expect("the cell size is sound");
         let sensor = SensorParams { fov_rad: fov_deg.to_radians(), rays, ..SensorParams::default() };
         let params = RobotParams { odometry: still(), sensor, ..RobotParams::default() };
         let mut witness = Witness::new(SimRobot::new(Arc::new(world), params, 1), coverage);
@@ -183,7 +183,8 @@ fn corridor(length: usize) -> Witness {
     let start = Se2::new(0.5, 0.5, 0.0);
     let world = World2d::from_cells("corridor", CellMap::free(length, 1, 1.0), start)
         .expect("the start is free");
-    let coverage = Coverage::new(&world, CoverageParams::default());
+    let coverage =
+        Coverage::new(&world, CoverageParams::default()).expect("the cell size is sound");
     let sensor = SensorParams { rays: 1, range_m: 3.0, ..SensorParams::default() };
     let params = RobotParams { sensor, odometry: still(), ..RobotParams::default() };
     Witness::new(SimRobot::new(Arc::new(world), params, 1), coverage)
@@ -252,7 +253,8 @@ fn what_the_robot_cannot_reach_does_not_count() {
         cells.solid[row * 7 + 3] = true;
     }
     let world = World2d::from_cells("rooms", cells, Se2::new(0.5, 0.5, 0.0)).unwrap();
-    let coverage = Coverage::new(&world, CoverageParams::default());
+    let coverage =
+        Coverage::new(&world, CoverageParams::default()).expect("the cell size is sound");
     assert_eq!((coverage.cells_total(), coverage.cells_reachable()), (18, 9));
 }
 
@@ -266,7 +268,8 @@ fn a_start_in_a_cell_that_a_wall_cuts_counts_from_the_nearest_cell_in_sight() {
     // The block cuts the cells from 3 to 5; the start stands in one of them, left of the block.
     let rings = vec![ring(0.0, 8.0), ring(3.5, 4.5)];
     let world = World2d::from_polygons("block", rings, Se2::new(3.2, 4.0, 0.0)).unwrap();
-    let coverage = Coverage::new(&world, CoverageParams::default());
+    let coverage =
+        Coverage::new(&world, CoverageParams::default()).expect("the cell size is sound");
     assert_eq!((coverage.cells_total(), coverage.cells_reachable()), (60, 60));
 }
 
@@ -274,7 +277,8 @@ fn a_start_in_a_cell_that_a_wall_cuts_counts_from_the_nearest_cell_in_sight() {
 fn a_place_without_a_free_cell_is_never_complete() {
     let ring = vec![Point2::new(0.0, 0.0), Point2::new(1.0, 0.0), Point2::new(0.0, 1.0)];
     let world = World2d::from_polygons("wedge", vec![ring], Se2::new(0.2, 0.2, 0.0)).unwrap();
-    let coverage = Coverage::new(&world, CoverageParams::default());
+    let coverage =
+        Coverage::new(&world, CoverageParams::default()).expect("the cell size is sound");
     assert_eq!((coverage.cells_total(), coverage.cells_reachable()), (0, 0));
     assert_eq!((coverage.fraction(), coverage.is_complete()), (0.0, false));
     assert_eq!(coverage.d_exp_m(), None);
@@ -288,11 +292,24 @@ fn a_ray_onto_a_wall_along_a_cell_border_does_not_see_behind_it() {
     // A wall from x = 3 to x = 3.1; the cells behind it are seen by no ray from the left.
     let rings = vec![ring(0.0, 8.0), ring(3.0, 3.1)];
     let world = World2d::from_polygons("wall", rings, Se2::new(0.5, 2.5, 0.0)).unwrap();
-    let mut coverage = Coverage::new(&world, CoverageParams { cell_m: 0.1, rule: Rule::Rays });
+    let mut coverage = Coverage::new(&world, CoverageParams { cell_m: 0.1, rule: Rule::Rays })
+        .expect("the cell size is sound");
     let mut robot = SimRobot::new(Arc::new(world), RobotParams::default(), 1);
     robot.scan();
     coverage.see(robot.view(), 0.0);
     let seen = coverage.take_newly_seen();
     assert!(seen.len() > 100);
     assert!(seen.iter().all(|&index| coverage.centre_in_world(index).x < 3.0));
+}
+
+#[test]
+fn cell_sizes_that_make_no_grid_are_refused() {
+    let world = worlds::paper::maze();
+    for cell_m in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-6] {
+        let refused = Coverage::new(&world, CoverageParams { cell_m, rule: Rule::Rays });
+        assert!(matches!(refused, Err(MetricsError::CellSize { .. })), "{cell_m}");
+    }
+    // Larger than the place: one cell, which the walls cut.
+    let coverage = Coverage::new(&world, CoverageParams { cell_m: 100.0, rule: Rule::Rays });
+    assert_eq!(coverage.map(|coverage| coverage.cells_total()), Ok(0));
 }

@@ -7,7 +7,8 @@ use sensing::Robot;
 use worlds::{RobotParams, SimRobot, World2d, paper};
 
 fn first_scan_cells(world: World2d) -> (usize, usize) {
-    let coverage = Coverage::new(&world, CoverageParams::default());
+    let coverage =
+        Coverage::new(&world, CoverageParams::default()).expect("the cell size is sound");
     let robot = SimRobot::new(Arc::new(world), RobotParams::default(), 1);
     let mut witness = Witness::new(robot, coverage);
     witness.scan();

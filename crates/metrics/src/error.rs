@@ -1,0 +1,17 @@
+//! What can be wrong with an evaluation.
+
+/// Why coverage cannot be judged.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[non_exhaustive]
+pub enum MetricsError {
+    /// The cell size is not positive, or makes too many cells.
+    #[error("evaluation cells of {cell_m} m make {cells} cells: from 1 to {limit} are allowed")]
+    CellSize {
+        /// Side of a cell, metres.
+        cell_m: f64,
+        /// Cells over the bounds of the place, maybe not a number.
+        cells: f64,
+        /// Most cells that are allowed.
+        limit: usize,
+    },
+}
