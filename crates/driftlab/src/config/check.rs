@@ -2,6 +2,8 @@
 
 use serde_json::Value as Json;
 use toml::Value;
+use worlds::WorldError;
+use worlds::generate::{CavesParams, CorridorParams, MazeParams, PillarsParams, RoomsParams};
 
 use super::document::join;
 use super::load::properties_of;
@@ -20,7 +22,6 @@ pub(super) struct Fault {
 /// Everything that is wrong with the values of a config, in no order.
 pub(super) fn faults(config: &Config) -> Vec<Fault> {
     let mut faults = Vec::new();
-    between_keys(config, &mut faults);
     if i64::try_from(config.seed).is_ok() {
         match Value::try_from(config) {
             Ok(value) => in_range(&value, schema(), "", &mut faults),
@@ -29,6 +30,7 @@ pub(super) fn faults(config: &Config) -> Vec<Fault> {
     } else {
         faults.push(fault("seed", config.seed.to_string(), format!("at most {}", i64::MAX)));
     }
+    between_keys(config, &mut faults);
     faults
 }
 
@@ -78,6 +80,12 @@ fn limited(number: f64, shown: &str, node: &'static Json, path: &str, faults: &m
         return;
     }
     let mut words = Vec::new();
+    if let (Some(least), Some(most)) = (least, most)
+        && least == most
+    {
+        faults.push(fault(path, shown.to_owned(), least.to_string()));
+        return;
+    }
     if let Some(above) = above {
         words.push(format!("above {above}"));
     } else if let Some(least) = least {
@@ -95,9 +103,6 @@ fn limited(number: f64, shown: &str, node: &'static Json, path: &str, faults: &m
 }
 
 fn between_keys(config: &Config, faults: &mut Vec<Fault>) {
-    if config.schema != 1 {
-        faults.push(fault("schema", config.schema.to_string(), "1".into()));
-    }
     if !is_folder_name(&config.name) {
         let expected = "letters, digits, `.`, `_` or `-`, not starting with `.` or `-`";
         faults.push(fault("name", format!("{:?}", config.name), expected.into()));
@@ -117,15 +122,15 @@ fn between_keys(config: &Config, faults: &mut Vec<Fault>) {
         let expected = format!("\"each\" or a map of this config: {}", names.join(", "));
         faults.push(fault("compare.drive", format!("{drive:?}"), expected));
     }
+    let generator = config.world.as_ref().map(check_generator);
+    if let Some((key, Err(WorldError::Parameter { field, found, expected }))) = generator {
+        let path = join(key, field);
+        // What the range of the key itself refuses is told with that range.
+        if !faults.iter().any(|fault| fault.path == path) {
+            faults.push(fault(&path, found.to_string(), expected.into()));
+        }
+    }
     match &config.world {
-        Some(World::Corridor(world)) if 2.0 * world.width_m >= world.side_m => {
-            let expected = format!("less than half of side_m = {}", world.side_m);
-            faults.push(fault("world.corridor.width_m", world.width_m.to_string(), expected));
-        }
-        Some(World::Rooms(world)) if world.door_m >= world.room_m => {
-            let expected = format!("less than room_m = {}", world.room_m);
-            faults.push(fault("world.rooms.door_m", world.door_m.to_string(), expected));
-        }
         Some(World::Polygons(world)) => {
             if let Some(block) = world.blocks.iter().find(|block| block.len() < 3) {
                 let found = format!("a block of {} corners", block.len());
@@ -133,6 +138,18 @@ fn between_keys(config: &Config, faults: &mut Vec<Fault>) {
             }
         }
         _ => {}
+    }
+}
+
+/// The key of a generated world, and whether its values go together.
+fn check_generator(world: &World) -> (&'static str, Result<(), WorldError>) {
+    match world {
+        World::Corridor(world) => ("world.corridor", CorridorParams::from(world).check()),
+        World::Rooms(world) => ("world.rooms", RoomsParams::from(world).check()),
+        World::Maze(world) => ("world.maze", MazeParams::from(world).check()),
+        World::Pillars(world) => ("world.pillars", PillarsParams::from(world).check()),
+        World::Caves(world) => ("world.caves", CavesParams::from(world).check()),
+        _ => ("world", Ok(())),
     }
 }
 

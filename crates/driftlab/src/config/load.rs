@@ -62,6 +62,7 @@ impl Loaded {
         let parsed = parsed.map_err(|error| explained(&error, base, &sources, &none))?;
         let root_span = parsed.span();
         let mut document = parsed.into_inner();
+        this_schema(&document, &sources)?;
         one_variant_each(&document, &sources)?;
         not_yet(&document, &sources)?;
 
@@ -175,6 +176,19 @@ fn drop_file_keys(document: &mut DeTable<'_>, kind: &str) {
             table.remove("file");
             table.remove("yaml");
         }
+    }
+}
+
+/// A config of another layout is told first: its keys mean something else.
+fn this_schema(document: &DeTable<'_>, sources: &Sources) -> Result<(), ConfigError> {
+    let Some(value) = document.get("schema") else { return Ok(()) };
+    match value.get_ref() {
+        DeValue::Integer(number) if number.as_str() != "1" => Err(ConfigError::Value {
+            place: sources.place(value.span()),
+            found: format!("{number} for `schema`"),
+            expected: "1, the layout of configs that this driftlab reads".into(),
+        }),
+        _ => Ok(()),
     }
 }
 

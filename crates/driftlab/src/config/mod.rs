@@ -7,7 +7,8 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `experiment`, `world`, `robot`, `maps`, `planner`, `report` | the types and their defaults |
+//! | `experiment`, `world`, `generators`, `robot`, `maps`, `planner`, `report` | the types and their defaults |
+//! | `to_params` | the same as the algorithms want it, in radians |
 //! | `load` | file and command line to a checked config |
 //! | `source`, `document` | texts, spans, merging |
 //! | `schema`, `check` | ranges, from the types' attributes; rules between keys |
@@ -19,6 +20,7 @@ mod document;
 mod error;
 mod experiment;
 mod explain;
+mod generators;
 mod load;
 mod maps;
 mod planner;
@@ -29,11 +31,13 @@ mod show;
 mod source;
 #[cfg(test)]
 mod tests;
+mod to_params;
 mod world;
 mod world_file;
 
 pub use error::ConfigError;
 pub use experiment::{Config, Start};
+pub use generators::{CavesWorld, CorridorWorld, MazeWorld, Pillar, PillarsWorld, RoomsWorld};
 pub use load::{Loaded, Overrides};
 pub use maps::{GridMap, Maps, Occlusion, RelativeMap};
 pub use planner::{Planner, RapidPlanner, SurveyPlanner};
@@ -43,7 +47,7 @@ pub use schema::{meaning, schema};
 pub use show::{defaults_toml, origins, plain_toml, resolved_toml};
 pub use source::{Origin, Place};
 pub use world::{
-    CorridorWorld, ImageWorld, MapServerWorld, MazeWorld, MovingAiWorld, PaperMap, PaperWorld,
-    PillarsWorld, PolygonsWorld, RoomsWorld, ThesisMap, ThesisWorld, World,
+    ImageWorld, MapServerWorld, MovingAiWorld, PaperMap, PaperWorld, PolygonsWorld, ThesisMap,
+    ThesisWorld, World,
 };
 pub use world_file::world_kind_of_file;

@@ -8,9 +8,9 @@ use toml::Value;
 use super::document::join;
 use super::schema::{Property, is_variant_table, properties, property_at, resolved, schema, words};
 use super::{
-    Config, CorridorWorld, GridMap, ImageWorld, Loaded, MapServerWorld, MazeWorld, MovingAiWorld,
-    Origin, PaperWorld, PillarsWorld, PolygonsWorld, RapidPlanner, RelativeMap, RoomsWorld, Start,
-    SurveyPlanner, ThesisWorld,
+    CavesWorld, Config, CorridorWorld, GridMap, ImageWorld, Loaded, MapServerWorld, MazeWorld,
+    MovingAiWorld, Origin, PaperWorld, PillarsWorld, PolygonsWorld, RapidPlanner, RelativeMap,
+    RoomsWorld, Start, SurveyPlanner, ThesisWorld,
 };
 
 /// The resolved config as TOML, each value with its origin as a comment.
@@ -136,7 +136,11 @@ fn optional_tables() -> Vec<(&'static str, bool, toml::Table)> {
         ("world.paper", true, table_of(&PaperWorld::default())),
         ("world.thesis", false, table_of(&ThesisWorld::default())),
         ("world.corridor", false, table_of(&CorridorWorld::default())),
-        ("world.map_server", false, table_of(&MapServerWorld { yaml: "map.yaml".into() })),
+        (
+            "world.map_server",
+            false,
+            table_of(&MapServerWorld { yaml: "map.yaml".into(), ..MapServerWorld::default() }),
+        ),
         (
             "world.moving_ai",
             false,
@@ -151,6 +155,7 @@ fn optional_tables() -> Vec<(&'static str, bool, toml::Table)> {
         ("world.rooms", false, table_of(&RoomsWorld::default())),
         ("world.maze", false, table_of(&MazeWorld::default())),
         ("world.pillars", false, table_of(&PillarsWorld::default())),
+        ("world.caves", false, table_of(&CavesWorld::default())),
         ("map.relative", true, table_of(&RelativeMap::default())),
         ("map.grid", false, table_of(&GridMap::default())),
         ("planner.rapid", true, table_of(&RapidPlanner::default())),

@@ -82,6 +82,12 @@ fn files_are_relative_to_the_config() {
     assert_eq!(image.file, Path::new("/etc/floor.png"));
 }
 
+macro_rules! assert_page {
+    ($page:expr) => {
+        insta::with_settings!({ omit_expression => true }, { insta::assert_snapshot!($page) })
+    };
+}
+
 /// Inputs with the message that each gets, as one page to read.
 fn page(cases: &[(&str, &[&str])]) -> String {
     let mut page = String::new();
@@ -100,7 +106,7 @@ fn each_mistake_gets_one_message_at_its_place() {
     let two = with("[world.maze]\ncolumns = 3\n");
     let (sweep, corrected) = (with("[sweep]\nseeds = 3\n"), with("[map.grid_corrected]\n"));
     let drive = with("[compare]\ndrive = \"grid\"\n");
-    insta::assert_snapshot!(page(&[
+    assert_page!(page(&[
         ("seed = 1\n[sensor]\nfov = 90\n", &[]),
         ("[sensor]\nrange_m = \"far\"\n", &[]),
         ("[sensor]\nrays = 5.5\n", &[]),
@@ -123,7 +129,7 @@ fn each_mistake_gets_one_message_at_its_place() {
         (&sweep, &[]),
         (&corrected, &[]),
         (&drive, &[]),
-        ("schema = 2\n", &[]),
+        ("schema = 2\nmaps = 3\n", &[]),
         ("seed = \n", &[]),
         ("seed = 1\nseed = 2\n", &[]),
         ("seed = 99999999999999999999\n", &[]),
@@ -131,13 +137,13 @@ fn each_mistake_gets_one_message_at_its_place() {
         ("name = \"../x\"\n[world.paper]\n[map.grid]\n", &[]),
         ("[world.polygons]\noutline = [[0, 0], [1, 0]]\n[map.grid]", &[]),
         ("[world.polygons]\noutline = [[0, 0, 1]]\n", &[]),
-        ("[world.corridor]\nside_m = 4\n[map.grid]\n", &[]),
+        ("[world.corridor]\nheight_m = 4\n[map.grid]\n", &[]),
     ]));
 }
 
 #[test]
 fn each_mistake_of_the_command_line_gets_one_message_too() {
-    insta::assert_snapshot!(page(&[
+    assert_page!(page(&[
         (MAZE, &["odometry.scal=2"]),
         (MAZE, &["odometry.scale=-2"]),
         (MAZE, &["record.level=off"]),

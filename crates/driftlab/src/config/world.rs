@@ -6,6 +6,8 @@ use schemars::JsonSchema;
 use serde::de::Error;
 use serde::{Deserialize, Deserializer, Serialize};
 
+use super::{CavesWorld, CorridorWorld, MazeWorld, PillarsWorld, RoomsWorld};
+
 /// Which place the robot explores.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -25,12 +27,14 @@ pub enum World {
     Image(ImageWorld),
     /// Polygons written into the config.
     Polygons(PolygonsWorld),
-    /// Generated from the seed: rooms in rows, joined by doors.
+    /// Generated from a seed: rooms in rows and columns, joined by doors.
     Rooms(RoomsWorld),
-    /// Generated from the seed: a maze without loops.
+    /// Generated from a seed: a maze.
     Maze(MazeWorld),
-    /// Generated from the seed: one hall with round-about square pillars.
+    /// Generated from a seed: a hall with pillars.
     Pillars(PillarsWorld),
+    /// Generated from a seed: caves with ragged walls.
+    Caves(CavesWorld),
 }
 
 impl World {
@@ -47,6 +51,7 @@ impl World {
             Self::Rooms(_) => "rooms",
             Self::Maze(_) => "maze",
             Self::Pillars(_) => "pillars",
+            Self::Caves(_) => "caves",
         }
     }
 
@@ -124,30 +129,21 @@ pub enum ThesisMap {
     Third,
 }
 
-/// Parameters of `[world.corridor]`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct CorridorWorld {
-    /// Outer side of the square ring, metres.
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
-    pub side_m: f64,
-    /// Width of the corridor, metres; less than half the side.
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
-    pub width_m: f64,
-}
-
-impl Default for CorridorWorld {
-    fn default() -> Self {
-        Self { side_m: 40.0, width_m: 3.0 }
-    }
-}
-
 /// Parameters of `[world.map_server]`.
-#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct MapServerWorld {
     /// The YAML file, relative to the config; it names the image, resolution and thresholds.
     pub yaml: PathBuf,
+    /// Whether unknown ground is solid.
+    #[serde(default = "yes")]
+    pub unknown_is_solid: bool,
+}
+
+impl Default for MapServerWorld {
+    fn default() -> Self {
+        Self { yaml: PathBuf::new(), unknown_is_solid: yes() }
+    }
 }
 
 /// Parameters of `[world.moving_ai]`.
@@ -182,15 +178,24 @@ pub struct ImageWorld {
     #[serde(default = "pixel_m")]
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub resolution_m: f64,
-    /// A pixel darker than this share of white is solid, as are pixels of unknown ground.
-    #[serde(default = "solid_below")]
+    /// A pixel darker than this share of white is solid; left out, it is told from the image: as
+    /// map_server would where it looks like one of its maps, else by Otsu's threshold.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
     #[schemars(range(min = 0.0, max = 1.0))]
-    pub solid_below: f64,
+    pub solid_below: Option<f64>,
+    /// Whether unknown ground (transparent, or grey in a map_server image) is solid.
+    #[serde(default = "yes")]
+    pub unknown_is_solid: bool,
 }
 
 impl Default for ImageWorld {
     fn default() -> Self {
-        Self { file: PathBuf::new(), resolution_m: pixel_m(), solid_below: solid_below() }
+        Self {
+            file: PathBuf::new(),
+            resolution_m: pixel_m(),
+            solid_below: None,
+            unknown_is_solid: yes(),
+        }
     }
 }
 
@@ -198,8 +203,8 @@ fn pixel_m() -> f64 {
     0.05
 }
 
-fn solid_below() -> f64 {
-    0.65
+fn yes() -> bool {
+    true
 }
 
 /// Parameters of `[world.polygons]`.
@@ -242,74 +247,5 @@ fn lists_of_corners<'de, D: Deserializer<'de>>(input: D) -> Result<Vec<Vec<[f64;
 impl Default for PolygonsWorld {
     fn default() -> Self {
         Self { outline: vec![[0.0, 0.0], [20.0, 0.0], [20.0, 10.0], [0.0, 10.0]], blocks: vec![] }
-    }
-}
-
-/// Parameters of `[world.rooms]`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct RoomsWorld {
-    /// Rooms from west to east.
-    #[schemars(range(min = 1, max = 1000))]
-    pub columns: u32,
-    /// Rooms from south to north.
-    #[schemars(range(min = 1, max = 1000))]
-    pub rows: u32,
-    /// Inner side of a room, metres.
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
-    pub room_m: f64,
-    /// Width of a door, metres; less than the room.
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
-    pub door_m: f64,
-    /// Chance that two neighbours which need no door have one.
-    #[schemars(range(min = 0.0, max = 1.0))]
-    pub extra_doors: f64,
-}
-
-impl Default for RoomsWorld {
-    fn default() -> Self {
-        Self { columns: 4, rows: 3, room_m: 7.0, door_m: 2.0, extra_doors: 0.3 }
-    }
-}
-
-/// Parameters of `[world.maze]`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct MazeWorld {
-    /// Cells from west to east.
-    #[schemars(range(min = 1, max = 1000))]
-    pub columns: u32,
-    /// Cells from south to north.
-    #[schemars(range(min = 1, max = 1000))]
-    pub rows: u32,
-    /// Width of a corridor, metres.
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
-    pub corridor_m: f64,
-}
-
-impl Default for MazeWorld {
-    fn default() -> Self {
-        Self { columns: 10, rows: 10, corridor_m: 3.0 }
-    }
-}
-
-/// Parameters of `[world.pillars]`.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
-#[serde(deny_unknown_fields, default)]
-pub struct PillarsWorld {
-    /// Inner width and height of the hall, metres.
-    #[schemars(inner(range(min = 1.0)))]
-    pub size_m: [f64; 2],
-    /// How many pillars.
-    #[schemars(range(max = 100_000))]
-    pub count: u32,
-    /// Side of a pillar, metres.
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
-    pub pillar_m: f64,
-}
-
-impl Default for PillarsWorld {
-    fn default() -> Self {
-        Self { size_m: [30.0, 30.0], count: 12, pillar_m: 2.0 }
     }
 }

@@ -1,0 +1,206 @@
+//! The tables of a config as the algorithms want them: plain parameters, radians.
+
+use maps2d::relative::RelativeParams;
+use maps2d::volume::{OcclusionRule, Options, VolumeParams};
+use metrics::CoverageParams;
+use worlds::generate::{
+    CavesParams, CorridorParams, MazeParams, PillarShape, PillarsParams, RoomsParams,
+};
+use worlds::{DriveParams, OdometryParams, PlaceParams, RobotParams, SensorParams};
+
+use super::{
+    CavesWorld, Config, CorridorWorld, MazeWorld, Metrics, Occlusion, Odometry, Pillar,
+    PillarsWorld, Places, RelativeMap, Robot, RoomsWorld, Rule, Sensor,
+};
+
+impl From<&Config> for RobotParams {
+    fn from(config: &Config) -> Self {
+        Self {
+            sensor: (&config.sensor).into(),
+            odometry: (&config.odometry).into(),
+            places: (&config.places).into(),
+            drive: (&config.robot).into(),
+        }
+    }
+}
+
+impl From<&Sensor> for SensorParams {
+    fn from(sensor: &Sensor) -> Self {
+        Self {
+            fov_rad: sensor.fov_deg.to_radians(),
+            range_m: sensor.range_m,
+            rays: sensor.rays as usize,
+            range_sigma_m: sensor.range_sigma_m,
+        }
+    }
+}
+
+impl From<&Odometry> for OdometryParams {
+    fn from(odometry: &Odometry) -> Self {
+        Self {
+            sigma_translation: odometry.sigma_translation,
+            sigma_rotation_rad: odometry.sigma_rotation.to_radians(),
+            scale: odometry.scale,
+            bias_translation: odometry.bias_translation,
+            bias_rotation_rad: odometry.bias_rotation.to_radians(),
+        }
+    }
+}
+
+impl From<&Places> for PlaceParams {
+    fn from(places: &Places) -> Self {
+        Self {
+            enabled: places.enabled,
+            radius_m: places.radius_m,
+            exclude_factor: places.exclude_factor,
+            recall: places.recall,
+            false_positive_rate: places.false_positive_rate,
+            sigma_translation_m: places.sigma_translation_m,
+            sigma_rotation_rad: places.sigma_rotation_deg.to_radians(),
+            max_matches: (places.max_matches > 0).then_some(places.max_matches as usize),
+        }
+    }
+}
+
+impl From<&Robot> for DriveParams {
+    fn from(robot: &Robot) -> Self {
+        Self {
+            robot_radius_m: robot.radius_m,
+            repeat_sigma_m: robot.repeat_sigma_m,
+            repeat_sigma_rotation_rad: robot.repeat_sigma_deg.to_radians(),
+            snap_radius_m: (robot.snap_radius_m > 0.0).then_some(robot.snap_radius_m),
+        }
+    }
+}
+
+impl From<&Metrics> for CoverageParams {
+    fn from(metrics: &Metrics) -> Self {
+        let rule = match metrics.rule {
+            Rule::Rays => metrics::Rule::Rays,
+            Rule::View => metrics::Rule::View,
+        };
+        Self { cell_m: metrics.cell_m, rule }
+    }
+}
+
+impl From<&RelativeMap> for RelativeParams {
+    fn from(map: &RelativeMap) -> Self {
+        let occlusion = match map.occlusion {
+            Occlusion::Range => OcclusionRule::Range,
+            Occlusion::ForwardSigned => OcclusionRule::ForwardSigned,
+        };
+        Self {
+            volume: VolumeParams {
+                occlusion_gap_m: map.occlusion_gap_m,
+                strict_margin_m: map.strict_margin_m,
+                options: Options {
+                    occlusion,
+                    insert_occlusion_vertex: map.insert_occlusion_vertex,
+                    thin_m: map.thin_m,
+                },
+            },
+            consolidation_radius_m: map.consolidation_radius_m,
+            wall_closing_m: map.wall_closing_m,
+            sliver_m: map.sliver_m,
+            retire: map.retire,
+        }
+    }
+}
+
+impl From<&CorridorWorld> for CorridorParams {
+    fn from(world: &CorridorWorld) -> Self {
+        let CorridorWorld { width_m, height_m, corridor_m } = *world;
+        Self { width_m, height_m, corridor_m }
+    }
+}
+
+impl From<&RoomsWorld> for RoomsParams {
+    fn from(world: &RoomsWorld) -> Self {
+        Self {
+            columns: world.columns as usize,
+            rows: world.rows as usize,
+            room_min_m: world.room_min_m,
+            room_max_m: world.room_max_m,
+            door_m: world.door_m,
+            wall_m: world.wall_m,
+            extra_doors: world.extra_doors,
+            cell_m: world.cell_m,
+            seed: world.seed,
+        }
+    }
+}
+
+impl From<&MazeWorld> for MazeParams {
+    fn from(world: &MazeWorld) -> Self {
+        Self {
+            columns: world.columns as usize,
+            rows: world.rows as usize,
+            corridor_m: world.corridor_m,
+            wall_m: world.wall_m,
+            loops: world.loops,
+            cell_m: world.cell_m,
+            seed: world.seed,
+        }
+    }
+}
+
+impl From<&PillarsWorld> for PillarsParams {
+    fn from(world: &PillarsWorld) -> Self {
+        let shape = match world.shape {
+            Pillar::Square => PillarShape::Square,
+            Pillar::Turned => PillarShape::Turned,
+            Pillar::Round => PillarShape::Round,
+            Pillar::Mixed => PillarShape::Mixed,
+        };
+        Self {
+            width_m: world.width_m,
+            height_m: world.height_m,
+            count: world.count as usize,
+            size_min_m: world.size_min_m,
+            size_max_m: world.size_max_m,
+            gap_m: world.gap_m,
+            shape,
+            seed: world.seed,
+        }
+    }
+}
+
+impl From<&CavesWorld> for CavesParams {
+    fn from(world: &CavesWorld) -> Self {
+        Self {
+            width_m: world.width_m,
+            height_m: world.height_m,
+            solid_share: world.solid_share,
+            rounds: world.rounds as usize,
+            cell_m: world.cell_m,
+            seed: world.seed,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_defaults_here_are_the_defaults_below() {
+        assert_eq!(RobotParams::from(&Config::default()), RobotParams::default());
+        assert_eq!(CoverageParams::from(&Metrics::default()), CoverageParams::default());
+        assert_eq!(RelativeParams::from(&RelativeMap::default()), RelativeParams::default());
+        assert_eq!(CorridorParams::from(&CorridorWorld::default()), CorridorParams::default());
+        assert_eq!(RoomsParams::from(&RoomsWorld::default()), RoomsParams::default());
+        assert_eq!(MazeParams::from(&MazeWorld::default()), MazeParams::default());
+        assert_eq!(PillarsParams::from(&PillarsWorld::default()), PillarsParams::default());
+        assert_eq!(CavesParams::from(&CavesWorld::default()), CavesParams::default());
+    }
+
+    #[test]
+    fn degrees_end_here() {
+        let odometry = Odometry { bias_rotation: 180.0, ..Odometry::default() };
+        assert_eq!(OdometryParams::from(&odometry).bias_rotation_rad, std::f64::consts::PI);
+        let places = Places { sigma_rotation_deg: 90.0, max_matches: 2, ..Places::default() };
+        let params = PlaceParams::from(&places);
+        assert_eq!(params.sigma_rotation_rad, std::f64::consts::FRAC_PI_2);
+        assert_eq!(params.max_matches, Some(2));
+    }
+}
