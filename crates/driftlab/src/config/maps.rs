@@ -87,10 +87,17 @@ pub struct GridMap {
     /// Side of a cell, metres.
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub cell_m: f64,
+    /// A cell is free when a scan covers it but for this share of its side all around; else cells in
+    /// corners, which no rays ever fill, would stay unknown.
+    #[schemars(range(min = 0.0, max = 0.49))]
+    pub cell_margin: f64,
+    /// Two neighbouring samples are one wall if their ranges differ by less; metres.
+    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    pub occlusion_gap_m: f64,
 }
 
 impl Default for GridMap {
     fn default() -> Self {
-        Self { cell_m: 1.0 }
+        Self { cell_m: 1.0, cell_margin: 0.1, occlusion_gap_m: 1.0 }
     }
 }

@@ -1,5 +1,7 @@
 //! The tables of a config as the algorithms want them: plain parameters, radians.
 
+use explore::{ExploreParams, Policy, RapidParams};
+use maps2d::grid::GridParams;
 use maps2d::relative::RelativeParams;
 use maps2d::volume::{OcclusionRule, Options, VolumeParams};
 use metrics::CoverageParams;
@@ -9,8 +11,8 @@ use worlds::generate::{
 use worlds::{DriveParams, OdometryParams, PlaceParams, RobotParams, SensorParams};
 
 use super::{
-    CavesWorld, Config, CorridorWorld, MazeWorld, Metrics, Occlusion, Odometry, Pillar,
-    PillarsWorld, Places, RelativeMap, Robot, RoomsWorld, Rule, Sensor,
+    CavesWorld, Config, CorridorWorld, GridMap, MazeWorld, Metrics, Occlusion, Odometry, Pillar,
+    PillarsWorld, Places, Planner, RapidPlanner, RelativeMap, Robot, RoomsWorld, Rule, Sensor,
 };
 
 impl From<&Config> for RobotParams {
@@ -107,6 +109,37 @@ impl From<&RelativeMap> for RelativeParams {
     }
 }
 
+impl From<&GridMap> for GridParams {
+    fn from(map: &GridMap) -> Self {
+        let volume =
+            VolumeParams { occlusion_gap_m: map.occlusion_gap_m, ..VolumeParams::default() };
+        Self { cell_m: map.cell_m, cell_margin: map.cell_margin, volume }
+    }
+}
+
+impl From<&Config> for ExploreParams {
+    fn from(config: &Config) -> Self {
+        let Planner::Rapid(planner) = &config.planner;
+        Self { policy: Policy::Rapid(planner.into()), max_steps: u64::from(config.max_steps) }
+    }
+}
+
+impl From<&RapidPlanner> for RapidParams {
+    fn from(planner: &RapidPlanner) -> Self {
+        Self {
+            step_m: planner.step_m,
+            clearances_m: planner.clearances_m.clone(),
+            turn_tolerance_rad: planner.turn_tolerance_deg.to_radians(),
+            normal_point_m: planner.normal_point_m.clone(),
+            arrival_m: planner.arrival_m,
+            give_up_radius_m: planner.give_up_radius_m,
+            visits_in_vain: planner.visits_in_vain,
+            turns_at_a_place: planner.turns_at_a_place,
+            teleport: planner.teleport,
+        }
+    }
+}
+
 impl From<&CorridorWorld> for CorridorParams {
     fn from(world: &CorridorWorld) -> Self {
         let CorridorWorld { width_m, height_m, corridor_m } = *world;
@@ -187,6 +220,8 @@ mod tests {
         assert_eq!(RobotParams::from(&Config::default()), RobotParams::default());
         assert_eq!(CoverageParams::from(&Metrics::default()), CoverageParams::default());
         assert_eq!(RelativeParams::from(&RelativeMap::default()), RelativeParams::default());
+        assert_eq!(GridParams::from(&GridMap::default()), GridParams::default());
+        assert_eq!(ExploreParams::from(&Config::default()), ExploreParams::default());
         assert_eq!(CorridorParams::from(&CorridorWorld::default()), CorridorParams::default());
         assert_eq!(RoomsParams::from(&RoomsWorld::default()), RoomsParams::default());
         assert_eq!(MazeParams::from(&MazeWorld::default()), MazeParams::default());

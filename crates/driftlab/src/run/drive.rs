@@ -1,0 +1,243 @@
+//! One robot's run: a map that steers, maps that ride along, and what came of each.
+
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+use explore::{Ending, ExploreParams, Explorer, State, StepReport};
+use maps2d::ExplorationMap;
+use maps2d::grid::GridMap;
+use maps2d::relative::RelativeMap;
+use metrics::{Coverage, Witness};
+use posegraph::EdgeKind;
+use worlds::{RobotParams, SimRobot, World2d};
+
+use super::timed::{TimedProbe, TimedRobot};
+use super::{MapMetrics, MapTiming, StepRow, StepSeen, Watch, quantile};
+use crate::config::Config;
+
+/// Memory is asked for every so many steps: the answer costs a walk over the map.
+const MEMORY_EVERY: u64 = 128;
+
+/// What came of one map.
+#[derive(Clone, Debug, PartialEq)]
+pub struct MapRun {
+    /// The name of the map.
+    pub name: &'static str,
+    /// What it believed, and what was true.
+    pub metrics: MapMetrics,
+    /// What it cost.
+    pub timing: MapTiming,
+    /// Its steps.
+    pub rows: Vec<StepRow>,
+}
+
+/// Runs one robot to its end; the first of `kinds` steers, the others ride along.
+///
+/// The same config, place and kinds give the same metrics and rows, whoever watches.
+///
+/// # Errors
+/// Where the watcher cannot go on.
+pub fn drive<W: Watch>(
+    config: &Config,
+    world: &Arc<World2d>,
+    coverage: &Coverage,
+    kinds: &[&'static str],
+    watch: &mut W,
+    on_step: &mut dyn FnMut(&StepRow),
+) -> Result<Vec<MapRun>, W::Error> {
+    let started = Instant::now();
+    let robot = SimRobot::new(Arc::clone(world), RobotParams::from(config), config.seed);
+    let mut witness = Witness::new(robot, coverage.clone());
+    let maps = kinds.iter().filter_map(|kind| map_of(config, kind)).collect();
+    let mut explorer = Explorer::new(maps, ExploreParams::from(config));
+    let mut riders: Vec<Rider> = kinds.iter().map(|&kind| Rider::new(kind)).collect();
+    let mut step_micros = Vec::new();
+
+    watch.place(world, coverage)?;
+    let mut step = 0;
+    let report = loop {
+        let before_m = witness.tally().distance_m;
+        watch.step_begins(step, before_m, before_m);
+        let (report, spent) = timed_step(&mut explorer, &mut witness, watch);
+        step_micros.push(spent.as_secs_f64() * 1e6);
+        let newly_seen = witness.take_newly_seen();
+        for (rider, map) in riders.iter_mut().zip(explorer.maps()) {
+            rider.step(step, &explorer, &report, map.as_ref(), &witness);
+        }
+        if let Some(row) = riders.first().and_then(|rider| rider.rows.last()) {
+            let end = StepSeen {
+                explorer: &explorer,
+                report: &report,
+                witness: &witness,
+                newly_seen: &newly_seen,
+                row,
+            };
+            watch.step_ends(&end)?;
+            on_step(row);
+        }
+        step += 1;
+        if report.ending.is_some() {
+            break report;
+        }
+    };
+
+    let wall_secs = started.elapsed().as_secs_f64();
+    let timing = |rider: &Rider| MapTiming {
+        step_micros_median: quantile(&step_micros, 0.5),
+        step_micros_p99: quantile(&step_micros, 0.99),
+        map_bytes_peak: rider.bytes_peak,
+        wall_secs,
+    };
+    let mut runs = Vec::with_capacity(riders.len());
+    for (index, (mut rider, map)) in riders.into_iter().zip(explorer.maps()).enumerate() {
+        rider.bytes_peak = rider.bytes_peak.max(map.bytes() as u64);
+        let steers = index == 0;
+        runs.push(MapRun {
+            name: rider.name,
+            metrics: rider.metrics(steers, &explorer, &report, map.as_ref(), &witness),
+            timing: timing(&rider),
+            rows: rider.rows,
+        });
+    }
+    Ok(runs)
+}
+
+fn map_of(config: &Config, kind: &str) -> Option<Box<dyn ExplorationMap + Send>> {
+    match kind {
+        "relative" => {
+            let params = config.map.relative.as_ref()?;
+            Some(Box::new(RelativeMap::new(params.into())))
+        }
+        "grid" => Some(Box::new(GridMap::new(config.map.grid.as_ref()?.into()))),
+        _ => None,
+    }
+}
+
+/// One step, and the time it took without the simulator and the watcher.
+fn timed_step<W: Watch>(
+    explorer: &mut Explorer,
+    witness: &mut Witness,
+    watch: &mut W,
+) -> (StepReport, Duration) {
+    let mut robot = TimedRobot::new(witness);
+    let mut probe = TimedProbe::new(watch);
+    let start = Instant::now();
+    let report = explorer.step(&mut robot, &mut probe);
+    let spent = start.elapsed().saturating_sub(robot.spent + probe.spent);
+    (report, spent)
+}
+
+/// One map of a run, as its rows and sums grow.
+struct Rider {
+    name: &'static str,
+    rows: Vec<StepRow>,
+    bytes_peak: u64,
+    /// Distance at which nothing was left to explore, while that is so.
+    done_at_m: Option<f64>,
+}
+
+impl Rider {
+    fn new(name: &'static str) -> Self {
+        Self { name, rows: Vec::new(), bytes_peak: 0, done_at_m: None }
+    }
+
+    fn step(
+        &mut self,
+        step: u64,
+        explorer: &Explorer,
+        report: &StepReport,
+        map: &dyn ExplorationMap,
+        witness: &Witness,
+    ) {
+        let tally = witness.tally();
+        let frontier = map.frontier();
+        if frontier.open_m > 0.0 {
+            self.done_at_m = None;
+        } else {
+            self.done_at_m.get_or_insert(tally.distance_m);
+        }
+        if step.is_multiple_of(MEMORY_EVERY) {
+            self.bytes_peak = self.bytes_peak.max(map.bytes() as u64);
+        }
+        self.rows.push(StepRow {
+            step,
+            map: self.name.to_owned(),
+            distance_m: tally.distance_m,
+            sim_time_secs: tally.distance_m,
+            state: state_name(report.state),
+            world_from_body: witness.world_from_body(),
+            odom_from_body: witness.robot().world().world_from_start() * report.odom_from_body,
+            coverage: witness.coverage().fraction(),
+            frontier_open_m: frontier.open_m,
+            frontier_ignored_m: frontier.ignored_m,
+            frontier_places: frontier.places as u64,
+            vertices: explorer.graph().vertex_count() as u64,
+            place_edges: explorer.place_edges(),
+            scans: tally.scans,
+            collisions: tally.collisions,
+            bumps: tally.bumps,
+        });
+    }
+
+    fn metrics(
+        &self,
+        steers: bool,
+        explorer: &Explorer,
+        report: &StepReport,
+        map: &dyn ExplorationMap,
+        witness: &Witness,
+    ) -> MapMetrics {
+        // The map that steers says when it is done; one that rides along believes so once it has
+        // nothing left, however far the robot goes on.
+        let believed_complete = match steers {
+            true => report.ending == Some(Ending::Complete),
+            false => self.done_at_m.is_some(),
+        };
+        let verdict = witness.verdict(believed_complete);
+        let done_at_m = if steers { verdict.d_max_m } else { verdict.d_max_m.and(self.done_at_m) };
+        let tally = witness.tally();
+        let frontier = map.frontier();
+        let graph = explorer.graph();
+        let place_edges = graph.edges().filter(|(_, edge)| edge.kind == EdgeKind::Place).count();
+        debug_assert_eq!(place_edges as u64, explorer.place_edges(), "edges are counted twice");
+        MapMetrics {
+            believed_complete: verdict.believed_complete,
+            coverage: verdict.coverage,
+            false_completion: verdict.false_completion,
+            distance_m: verdict.distance_m,
+            d_max_m: done_at_m,
+            d_exp_m: verdict.d_exp_m,
+            steps: explorer.steps(),
+            scans: tally.scans,
+            place_edges: place_edges as u64,
+            collisions: tally.collisions,
+            bumps: tally.bumps,
+            min_clearance_m: tally.min_clearance_m,
+            cells_total: verdict.cells_total as u64,
+            cells_reachable: verdict.cells_reachable as u64,
+            frontier_left_m: frontier.open_m,
+            frontier_ignored_m: frontier.ignored_m,
+            backtracking_share: explorer.backtracking_share(),
+            turning_rad: tally.turning_rad,
+            vertices: graph.vertex_count() as u64,
+            termination: ending_name(report.ending).to_owned(),
+        }
+    }
+}
+
+fn state_name(state: State) -> &'static str {
+    match state {
+        State::Reactive => "reactive",
+        State::Deliberate => "deliberate",
+        State::Done => "done",
+    }
+}
+
+fn ending_name(ending: Option<Ending>) -> &'static str {
+    match ending {
+        Some(Ending::Complete) => "complete",
+        Some(Ending::StepLimit) => "step_limit",
+        Some(Ending::Stuck) => "stuck",
+        None => "running",
+    }
+}
