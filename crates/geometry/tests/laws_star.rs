@@ -7,7 +7,7 @@ use common::config;
 use common::places::{exact, spots, stars};
 use geometry::Point2;
 use geometry::planar::{BoundaryKind, Interval, PlanarError, Sector, StarPolygon};
-use geometry::predicates::compare_bearing_from;
+use geometry::predicates::{compare_bearing_from, cross_sign, sort_by_bearing};
 use proptest::prelude::*;
 
 const SEEDS: &str = "proptest-regressions/laws_star.txt";
@@ -192,6 +192,46 @@ proptest! {
             let kept = margin * (5.0 * sine(&v).min(sine(&w))).min(1.0);
             prop_assert!(away(&p) >= kept - 1e-12, "{} {}", away(&p), kept);
         }
+    }
+
+    /// Any polygon, also full circles whose first vertex is dropped.
+    #[test]
+    fn a_shrunk_polygon_lies_inside(
+        star in stars(),
+        margin in 0.5..30.0_f64,
+        queries in prop::collection::vec((-3.2..3.2_f64, 0.0..1.0_f64), 30),
+    ) {
+        let polygon = star.star(exact);
+        let small = polygon.shrunk(margin);
+        let gaps = (0..small.len()).map(|i| small.is_gap(i)).collect();
+        prop_assert_eq!(&StarPolygon::try_new(small.vertices().to_vec(), gaps).unwrap(), &small);
+        prop_assert!(small.len() == polygon.len() || small.is_empty() || small.has_gap());
+        for (bearing, share) in queries {
+            let direction = Point2::new(bearing.cos(), bearing.sin());
+            let p = direction * (share * small.radius_towards(&direction));
+            prop_assert!(!small.contains(&p) || polygon.contains(&p));
+        }
+    }
+
+    /// Bearings that differ in the last bit: pulling rounds, and must not turn one past the next.
+    #[test]
+    fn a_shrunk_needle_is_still_in_order(
+        bearing in -3.2..3.2_f64,
+        radii in prop::collection::vec(1.0..9.0_f64, 2..12),
+        margin in 0.01..0.5_f64,
+    ) {
+        let mut samples: Vec<(Point2, ())> = radii
+            .iter()
+            .map(|r| (Point2::new(r * bearing.cos(), r * bearing.sin()), ()))
+            .collect();
+        sort_by_bearing(&mut samples);
+        samples.dedup_by(|b, a| cross_sign(&a.0, &b.0).is_eq());
+        let vertices: Vec<Point2> = samples.into_iter().map(|(p, ())| p).collect();
+        let mut gap_after = vec![false; vertices.len()];
+        gap_after[vertices.len() - 1] = true;
+        let small = StarPolygon::try_new(vertices, gap_after).unwrap().shrunk(margin);
+        let gaps = (0..small.len()).map(|i| small.is_gap(i)).collect();
+        prop_assert_eq!(&StarPolygon::try_new(small.vertices().to_vec(), gaps).unwrap(), &small);
     }
 
     #[test]
