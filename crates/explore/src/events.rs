@@ -136,10 +136,7 @@ pub enum PlannerEvent<'a> {
 }
 
 /// A listener of everything that a run emits.
-pub trait ExploreProbe:
-    MapProbe + Probe<GraphEvent> + for<'a> Probe<PlannerEvent<'a>>
-{
-}
+pub trait ExploreProbe: MapProbe + Probe<GraphEvent> + for<'a> Probe<PlannerEvent<'a>> {}
 
 impl<P> ExploreProbe for P where
     P: MapProbe + Probe<GraphEvent> + for<'a> Probe<PlannerEvent<'a>> + ?Sized

@@ -5,7 +5,7 @@ use posegraph::EdgeKind;
 use probe::{EdgeId, VertexId};
 use sensing::Robot;
 
-use crate::{Explorer, ExploreProbe, GraphEvent, PlannerEvent};
+use crate::{ExploreProbe, Explorer, GraphEvent, PlannerEvent};
 
 impl Explorer {
     /// Turns without a scan.
@@ -16,7 +16,8 @@ impl Explorer {
         probe: &mut dyn ExploreProbe,
     ) {
         let odometry = robot.turn(angle_rad);
-        self.standing.vertex_from_body = self.standing.vertex_from_body * odometry.before_from_after;
+        self.standing.vertex_from_body =
+            self.standing.vertex_from_body * odometry.before_from_after;
         probe.emit(PlannerEvent::Turned { angle_rad });
     }
 

@@ -14,7 +14,7 @@ use pose::Se2;
 use probe::VertexId;
 use sensing::Robot;
 
-use crate::{Ending, Explorer, ExploreProbe, GiveUp, PlannerEvent, RapidParams, State};
+use crate::{Ending, ExploreProbe, Explorer, GiveUp, PlannerEvent, RapidParams, State};
 
 /// What the policy remembers between steps.
 #[derive(Clone, Debug, Default)]

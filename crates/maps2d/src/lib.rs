@@ -1,8 +1,8 @@
 #![doc = include_str!("../README.md")]
 
 mod events;
-mod map;
 pub mod grid;
+mod map;
 pub mod relative;
 pub mod volume;
 

@@ -118,7 +118,12 @@ impl ScopeScratch {
         let Ok(tree) = dijkstra_within(&ByLength(skeleton), root, radius_m, &mut self.search)
         else {
             let root_from_vertex = Se2::identity();
-            scope.placed.push(Placed { vertex: root, root_from_vertex, distance_m: 0.0, parent: None });
+            scope.placed.push(Placed {
+                vertex: root,
+                root_from_vertex,
+                distance_m: 0.0,
+                parent: None,
+            });
             return;
         };
         for settled in tree.settled() {
@@ -166,14 +171,9 @@ impl ScopeScratch {
         root: VertexId,
         is_goal: impl FnMut(VertexId) -> bool,
     ) -> Option<Vec<(VertexId, f64)>> {
-        let found = dijkstra_nearest(
-            &ByLength(skeleton),
-            root,
-            f64::INFINITY,
-            is_goal,
-            &mut self.search,
-        )
-        .ok()?;
+        let found =
+            dijkstra_nearest(&ByLength(skeleton), root, f64::INFINITY, is_goal, &mut self.search)
+                .ok()?;
         let goal = found.goal?.node;
         let path = found.tree.path_to(goal)?;
         let legs = path.windows(2).map(|pair| {

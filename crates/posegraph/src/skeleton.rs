@@ -153,6 +153,23 @@ impl Skeleton {
         Some((a, b, length_m))
     }
 
+    /// Memory held on the heap, bytes; chains that two links share are counted once.
+    pub fn heap_bytes(&self) -> usize {
+        let links = self.nodes.iter().flat_map(|node| &node.links);
+        let chains: usize = links
+            .map(|link| match &link.via {
+                Via::Edge(_) => 0,
+                Via::Chain(edges) => edges.len() * size_of::<EdgeId>() / 2,
+            })
+            .sum();
+        let nodes: usize = self
+            .nodes
+            .iter()
+            .map(|node| size_of::<Node>() + node.links.capacity() * size_of::<Link>())
+            .sum();
+        nodes + chains
+    }
+
     fn connect(&mut self, a: VertexId, b: VertexId, a_from_b: Se2, length_m: f64, via: Via) {
         let back = Via::Chain(via.edges().iter().rev().copied().collect());
         let back = if let Via::Edge(edge) = via { Via::Edge(edge) } else { back };
@@ -206,8 +223,7 @@ impl Skeleton {
         pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
         for (length_m, i, j) in pairs {
             let (x, y) = (&links[i], &links[j]);
-            let bound_m =
-                if length_m <= self.horizon_m { length_m } else { DETOUR * length_m };
+            let bound_m = if length_m <= self.horizon_m { length_m } else { DETOUR * length_m };
             if scratch.distance_within(self, x.to, y.to, bound_m).is_some() {
                 continue;
             }

@@ -95,6 +95,11 @@ impl GridMap {
                 .collect();
             return Some(Route::Drive(way));
         }
+        // What no way over free cells leads to is believed to be out of reach.
+        for cell in std::mem::take(&mut self.frontier) {
+            self.cells.give_up(cell);
+            self.ignored += 1;
+        }
         None
     }
 

@@ -129,8 +129,8 @@ impl ExplorationMap for GridMap {
             self.view_at = Some(standing.vertex);
         }
         self.view_samples.add(scan, &standing.vertex_from_body);
-        self.view = build(&self.view_samples, &self.params.volume)
-            .unwrap_or_else(|_| LocalVolume::empty());
+        self.view =
+            build(&self.view_samples, &self.params.volume).unwrap_or_else(|_| LocalVolume::empty());
         let odom_from_sensor = self.odom_from_body(standing);
         let changed = self.apply(scan, &odom_from_sensor);
         if probe::Probe::<GridEvent<'_>>::on(probe) {

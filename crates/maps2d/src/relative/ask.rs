@@ -20,9 +20,8 @@ impl RelativeMap {
                 if run.length_m < 0.4 * self.params.sliver_m.min(chain.length_m) {
                     continue;
                 }
-                let goals = GOAL_SHARES.map(|share| {
-                    standing.vertex_from_body.inverse_transform(&run.at(share))
-                });
+                let goals = GOAL_SHARES
+                    .map(|share| standing.vertex_from_body.inverse_transform(&run.at(share)));
                 let body_from_vertex = standing.vertex_from_body.rotation.inverse();
                 out.push(Candidate {
                     goals_in_body: goals,
@@ -53,7 +52,8 @@ impl RelativeMap {
                     let middle = row.root_from_vertex.transform(&edge.at(part.span.middle()));
                     if here.volume.is_unseen_towards(&middle) {
                         out.push(Candidate {
-                            goals_in_body: [standing.vertex_from_body.inverse_transform(&middle); 3],
+                            goals_in_body: [standing.vertex_from_body.inverse_transform(&middle);
+                                3],
                             normal_in_body: Vector2::zeros(),
                             length_m: part.length_m,
                             turn_only: true,
@@ -68,11 +68,7 @@ impl RelativeMap {
     /// How near the straight motion from the anchor comes to what is solid in the volume there.
     ///
     /// Only the volume that the robot stands on is asked: it is the one without drift.
-    pub(super) fn motion_clearance(
-        &self,
-        standing: &Standing,
-        to_in_body: &Point2,
-    ) -> Clearance {
+    pub(super) fn motion_clearance(&self, standing: &Standing, to_in_body: &Point2) -> Clearance {
         let Some(state) = self.volume(standing.vertex) else { return Clearance::NONE };
         state.volume.motion_clearance(&standing.vertex_from_body.transform(to_in_body))
     }

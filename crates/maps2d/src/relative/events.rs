@@ -24,6 +24,8 @@ pub enum Cause {
 pub enum ReopenCause {
     /// The place edge that the closing relied on was withdrawn.
     EdgeWithdrawn(EdgeId),
+    /// The volume that closed it got more rays, and has to close it anew.
+    VolumeReplaced(VertexId),
 }
 
 /// Steps of frontier consolidation ([ISRR19] 4.3).

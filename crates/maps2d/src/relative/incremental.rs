@@ -43,7 +43,8 @@ impl RelativeMap {
     ) {
         let Some(&first) = edges.first() else { return };
         let first = graph.edge(first);
-        let shared = |v: VertexId| edges.iter().all(|&e| [graph.edge(e).a, graph.edge(e).b].contains(&v));
+        let shared =
+            |v: VertexId| edges.iter().all(|&e| [graph.edge(e).a, graph.edge(e).b].contains(&v));
         let newer = first.a.max(first.b);
         let vertex = if shared(newer) { newer } else { first.a.min(first.b) };
         for &id in edges {

@@ -1,10 +1,12 @@
 //! A scan comes in: it founds a volume, or is merged into the one of the same place.
 
-use geometry::planar::EdgeLedger;
+use geometry::Point2;
+use geometry::planar::{EdgeLedger, Interval};
+use probe::VertexId;
 use sensing::Scan;
 
-use super::{RelativeMap, VolumeState};
-use crate::volume::{LocalVolume, Samples, VolumeEvent, build};
+use super::{Cause, Closing, ConsolidationEvent, RelativeMap, ReopenCause, VolumeState};
+use crate::volume::{EdgeKey, LocalVolume, Samples, VolumeEvent, build};
 use crate::{MapProbe, Standing};
 
 impl RelativeMap {
@@ -21,7 +23,12 @@ impl RelativeMap {
         }
         let before = self.volumes[vertex].take();
         let mut samples = before.as_ref().map_or_else(Samples::new, |state| state.samples.clone());
-        samples.add(scan, &standing.vertex_from_body);
+        match before.as_deref() {
+            None => samples.add(scan, &standing.vertex_from_body),
+            Some(state) => {
+                samples.add_where(scan, &standing.vertex_from_body, |end| tells(state, end));
+            }
+        }
         if probe::Probe::<VolumeEvent<'_>>::on(probe) {
             probe.emit(VolumeEvent::Sampled { vertex, samples: &samples });
         }
@@ -34,12 +41,19 @@ impl RelativeMap {
             });
         }
         let mut state = VolumeState::new(volume, samples, self.params.sliver_m);
+        let mut doubtful: Vec<VertexId> = Vec::new();
         if let Some(before) = before {
             self.totals.remove(&before);
+            if before.volume.polygon != state.volume.polygon {
+                doubtful.clone_from(&before.closed_in);
+            }
             inherit(&mut state, *before, self.params.sliver_m);
         }
         self.totals.add(&state);
         self.volumes[vertex] = Some(Box::new(state));
+        for other in doubtful {
+            self.reopen_what_closed(other, vertex, probe);
+        }
         self.compare_with_scope(vertex, probe);
         if let Some(left) = self.stood.replace(vertex)
             && left != vertex
@@ -48,13 +62,48 @@ impl RelativeMap {
         }
     }
 
+    /// The volume that closed parts of `other` has changed: they are open until it closes them again.
+    ///
+    /// A ray between two old ones may show that the edge between them cut a corner.
+    fn reopen_what_closed(&mut self, other: VertexId, by: VertexId, probe: &mut dyn MapProbe) {
+        let Some(state) = self.volumes[other].as_deref_mut() else { return };
+        let on = probe::Probe::<ConsolidationEvent<'_>>::on(probe);
+        let mut parts: Vec<Interval> = Vec::new();
+        for (edge, ledger) in state.volume.frontier.iter().zip(&mut state.ledgers) {
+            parts.clear();
+            ledger.reopen(
+                |closing: &Closing| closing.by == by && closing.cause != Cause::Unreachable,
+                &mut parts,
+            );
+            for &span in parts.iter().filter(|_| on) {
+                let cause = ReopenCause::VolumeReplaced(by);
+                probe.emit(ConsolidationEvent::Reopened { volume: other, edge, span, cause });
+            }
+        }
+        self.remeasure(other);
+    }
+
     /// Room for a vertex in the volumes and in the skeleton.
-    pub(super) fn cover(&mut self, vertex: probe::VertexId) {
+    pub(super) fn cover(&mut self, vertex: VertexId) {
         while self.volumes.next_id() <= vertex {
             self.volumes.push(None);
         }
         self.skeleton.cover(vertex);
     }
+}
+
+/// Whether a ray that ends there tells the volume something: it looks where nobody looked, or splits
+/// a frontier edge that is still open. Everything else is settled, and the volume stays small
+/// however often the robot comes back.
+fn tells(state: &VolumeState, end_in_anchor: &Point2) -> bool {
+    let polygon = &state.volume.polygon;
+    let Some(sector) = polygon.sector_of(end_in_anchor) else { return true };
+    if polygon.is_gap(sector.index) {
+        return true;
+    }
+    let key = EdgeKey(2 * sector.index as u32);
+    let found = state.volume.frontier.binary_search_by_key(&key, |edge| edge.key);
+    found.is_ok_and(|edge| !state.ledgers[edge].is_closed())
 }
 
 /// What the volume before had closed stays closed where the same edge is still there; and what it
@@ -68,6 +117,7 @@ fn inherit(state: &mut VolumeState, before: VolumeState, sliver_m: f64) {
         }
     }
     state.closed_others = before.closed_others;
+    state.closed_in = before.closed_in;
     state.given_up = before.given_up;
     state.measure(sliver_m);
 }

@@ -189,11 +189,11 @@ impl ExplorationMap for RelativeMap {
     }
 
     fn bytes(&self) -> usize {
-        let volumes: usize = self
-            .volumes()
-            .map(|(_, state)| size_of::<VolumeState>() + state.heap_bytes())
-            .sum();
-        volumes + self.volumes.len() * size_of::<usize>() + self.book.heap_bytes()
+        let volumes: usize =
+            self.volumes().map(|(_, state)| size_of::<VolumeState>() + state.heap_bytes()).sum();
+        volumes
+            + self.volumes.len() * size_of::<usize>()
+            + self.book.heap_bytes()
             + self.skeleton.heap_bytes()
     }
 }

@@ -48,11 +48,11 @@ impl RelativeMap {
             let vertex = touched[i].0;
             let end = touched[i..].iter().take_while(|(v, _)| *v == vertex).count() + i;
             let counted_less = self.remeasure(vertex);
-            if counted_less {
-                for &(_, by) in &touched[i..end] {
-                    if by != vertex && let Some(state) = self.volumes[by].as_deref_mut() {
-                        state.closed_others = true;
-                    }
+            for &(_, by) in touched[i..end].iter().filter(|(_, by)| *by != vertex) {
+                let Some(state) = self.volumes[by].as_deref_mut() else { continue };
+                state.closed_others |= counted_less;
+                if !state.closed_in.contains(&vertex) {
+                    state.closed_in.push(vertex);
                 }
             }
             i = end;

@@ -113,7 +113,11 @@ impl RelativeMap {
             let Some(other) = self.volume(row.vertex) else { continue };
             let inner: &StarPolygon = &other.volume.inner;
             if inner.contains(&row.root_from_vertex.inverse_transform(&middle)) {
-                return WhyLeft::OutOfScope { by: row.vertex, distance_m: row.distance_m, radius_m };
+                return WhyLeft::OutOfScope {
+                    by: row.vertex,
+                    distance_m: row.distance_m,
+                    radius_m,
+                };
             }
         }
         WhyLeft::Unseen

@@ -20,10 +20,8 @@ impl RelativeMap {
             return;
         }
         let Some(state) = self.volumes[vertex].as_deref_mut() else { return };
-        let spent = !state.retired
-            && !state.counts()
-            && !state.closed_others
-            && state.given_up.is_empty();
+        let spent =
+            !state.retired && !state.counts() && !state.closed_others && state.given_up.is_empty();
         if !spent || !self.skeleton.retire(vertex, &mut self.scratch) {
             return;
         }

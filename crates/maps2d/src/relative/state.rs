@@ -3,6 +3,8 @@
 use geometry::Point2;
 use geometry::planar::EdgeLedger;
 
+use probe::VertexId;
+
 use super::chains::chains;
 use super::{Chain, Closing};
 use crate::volume::{LocalVolume, Samples};
@@ -28,6 +30,8 @@ pub struct VolumeState {
     pub unreachable_m: f64,
     /// Whether it closed frontier of another volume that counted.
     pub closed_others: bool,
+    /// The volumes of whose frontier it closed parts.
+    pub closed_in: Vec<VertexId>,
     /// Whether it is out of later comparisons.
     pub retired: bool,
     /// Places that could not be reached, with the radius around them; anchor frame, metres.
@@ -47,6 +51,7 @@ impl VolumeState {
             sliver_m: 0.0,
             unreachable_m: 0.0,
             closed_others: false,
+            closed_in: Vec::new(),
             retired: false,
             given_up: Vec::new(),
         };
@@ -94,7 +99,8 @@ impl VolumeState {
                 [edge.at(part.span.from), edge.at(part.span.to)]
             })
         };
-        let (mut low, mut high) = (Point2::new(f64::MAX, f64::MAX), Point2::new(f64::MIN, f64::MIN));
+        let (mut low, mut high) =
+            (Point2::new(f64::MAX, f64::MAX), Point2::new(f64::MIN, f64::MIN));
         for end in ends() {
             low = low.inf(&end);
             high = high.sup(&end);
@@ -116,9 +122,14 @@ impl VolumeState {
     pub(crate) fn heap_bytes(&self) -> usize {
         let closings: usize = self.ledgers.iter().map(|ledger| ledger.closed().len()).sum();
         self.volume.heap_bytes()
+            + self.closed_in.capacity() * size_of::<VertexId>()
             + self.samples.len() * (size_of::<crate::volume::Sample>() + 1)
             + self.ledgers.len() * size_of::<EdgeLedger<Closing>>()
             + closings * size_of::<geometry::planar::Closed<Closing>>()
-            + self.chains.iter().map(|c| c.parts.len() * size_of::<super::ChainPart>()).sum::<usize>()
+            + self
+                .chains
+                .iter()
+                .map(|c| c.parts.len() * size_of::<super::ChainPart>())
+                .sum::<usize>()
     }
 }

@@ -85,6 +85,17 @@ impl Samples {
     ///
     /// Where the new scan has a ray at the bearing of an old one, the new one counts.
     pub fn add(&mut self, scan: &Scan, anchor_from_sensor: &Se2) {
+        self.add_where(scan, anchor_from_sensor, |_| true);
+    }
+
+    /// [`add`](Self::add), but of the rays only those whose end `tells` something new; the
+    /// directions of the others still count as looked into.
+    pub fn add_where(
+        &mut self,
+        scan: &Scan,
+        anchor_from_sensor: &Se2,
+        tells: impl Fn(&Point2) -> bool,
+    ) {
         let turn_rad = anchor_from_sensor.angle();
         for (bearing_rad, reading) in scan.readings() {
             let bearing_rad = wrap_angle(bearing_rad + turn_rad);
@@ -96,7 +107,7 @@ impl Samples {
                 Point2::new(range_m * bearing_rad.cos(), range_m * bearing_rad.sin());
             if end_in_anchor == Point2::origin() {
                 self.touching_rad.push(bearing_rad);
-            } else {
+            } else if tells(&end_in_anchor) {
                 self.samples.push(Sample { bearing_rad, range_m, hit, end_in_anchor });
             }
         }
@@ -139,9 +150,8 @@ impl Samples {
 
     fn sort(&mut self) {
         // Later scans come later in the list and the sort is stable, so the last of equals is new.
-        self.samples.sort_by(|a, b| {
-            a.bearing_rad.partial_cmp(&b.bearing_rad).unwrap_or(Ordering::Equal)
-        });
+        self.samples
+            .sort_by(|a, b| a.bearing_rad.partial_cmp(&b.bearing_rad).unwrap_or(Ordering::Equal));
         let mut kept: Vec<Sample> = Vec::with_capacity(self.samples.len());
         for sample in self.samples.drain(..) {
             match kept.last_mut() {
@@ -166,8 +176,7 @@ impl Samples {
             .map(|i| {
                 let from_rad = self.samples[i].bearing_rad;
                 let to_rad = self.samples[(i + 1) % n].bearing_rad;
-                let span_rad =
-                    if i + 1 == n { to_rad + TAU - from_rad } else { to_rad - from_rad };
+                let span_rad = if i + 1 == n { to_rad + TAU - from_rad } else { to_rad - from_rad };
                 let seen = self.arcs.iter().any(|arc| arc.holds(from_rad, span_rad));
                 let split = self.touching_rad.iter().any(|&bearing_rad| {
                     let mut offset = wrap_angle(bearing_rad - from_rad);
