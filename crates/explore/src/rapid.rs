@@ -180,8 +180,8 @@ impl Explorer {
             self.rapid.behind = Some(Behind { point_in_body: None, ..behind.moved(&moved) });
             return true;
         }
-        // Seen from the normal point or from as near as can be: what is left there stays.
-        self.give_up(&goal, GiveUp::NothingNew, params, probe);
+        // Seen from the normal point or from as near as can be. If the frontier is still there, the
+        // robot will be sent to it again, and in the end give it up.
         false
     }
 

@@ -235,6 +235,25 @@ impl Skeleton {
         true
     }
 
+    /// Takes a retired vertex in again: it hangs on the vertex that stood for it by one link.
+    ///
+    /// Ways between other vertices stay what they are. Returns whether the vertex was retired.
+    pub fn restore(&mut self, vertex: VertexId) -> bool {
+        let Some(mut anchor) = self.nodes[vertex].anchor.take() else { return false };
+        while let Some(next) = self.nodes[anchor.host].anchor.clone() {
+            anchor = Anchor {
+                host: next.host,
+                host_from_vertex: next.host_from_vertex * anchor.host_from_vertex,
+                length_m: next.length_m + anchor.length_m,
+                via: next.via.join(&anchor.via),
+            };
+        }
+        self.retired -= 1;
+        let Anchor { host, host_from_vertex, length_m, via } = anchor;
+        self.connect(host, vertex, host_from_vertex, length_m, via);
+        true
+    }
+
     /// Adds a link and drops longer ones between the same two vertices.
     fn replace(&mut self, a: VertexId, b: VertexId, a_from_b: Se2, length_m: f64, via: Via) {
         self.nodes[a].links.retain(|link| link.to != b);

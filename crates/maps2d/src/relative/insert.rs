@@ -51,10 +51,14 @@ impl RelativeMap {
         }
         self.totals.add(&state);
         self.volumes[vertex] = Some(Box::new(state));
-        for other in doubtful {
+        for &other in &doubtful {
             self.reopen_what_closed(other, vertex, probe);
+            self.restore_if_it_counts(other, probe);
         }
         self.compare_with_scope(vertex, probe);
+        for other in doubtful {
+            self.retire_if_spent(other, probe);
+        }
         if let Some(left) = self.stood.replace(vertex)
             && left != vertex
         {

@@ -31,4 +31,18 @@ impl RelativeMap {
             probe.emit(ConsolidationEvent::Retired { volume: vertex });
         }
     }
+
+    /// A retired volume of which frontier was opened again takes part again.
+    pub(super) fn restore_if_it_counts(&mut self, vertex: VertexId, probe: &mut dyn MapProbe) {
+        let Some(state) = self.volumes[vertex].as_deref_mut() else { return };
+        if !state.retired || !state.counts() {
+            return;
+        }
+        state.retired = false;
+        self.skeleton.restore(vertex);
+        self.scope_is_fresh = false;
+        if probe::Probe::<ConsolidationEvent<'_>>::on(probe) {
+            probe.emit(ConsolidationEvent::Restored { volume: vertex });
+        }
+    }
 }
