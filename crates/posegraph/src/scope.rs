@@ -32,6 +32,8 @@ pub struct Placed {
     pub root_from_vertex: Se2,
     /// Length of the shortest path from the root, metres.
     pub distance_m: f64,
+    /// How much of that is odometry, metres: only this drifts.
+    pub odometry_m: f64,
     /// Position in [`Scope::placed`] of the vertex before it on that path; `None` at the root.
     pub parent: Option<u32>,
 }
@@ -122,6 +124,7 @@ impl ScopeScratch {
                 vertex: root,
                 root_from_vertex,
                 distance_m: 0.0,
+                odometry_m: 0.0,
                 parent: None,
             });
             return;
@@ -129,20 +132,25 @@ impl ScopeScratch {
         for settled in tree.settled() {
             let row = scope.placed.len() as u32;
             self.row_of[settled.node.0 as usize] = row;
-            let (parent, root_from_vertex) = match settled.parent {
-                None => (None, Se2::identity()),
+            let (parent, root_from_vertex, odometry_m) = match settled.parent {
+                None => (None, Se2::identity(), 0.0),
                 Some(before) => {
                     let parent = self.row_of[before.0 as usize];
-                    let root_from_before = scope.placed[parent as usize].root_from_vertex;
-                    let step = shortest_link(skeleton, before, settled.node)
-                        .map_or_else(Se2::identity, |link| link.here_from_there);
-                    (Some(parent), root_from_before * step)
+                    let before_row = scope.placed[parent as usize];
+                    let (step, drifting_m) = shortest_link(skeleton, before, settled.node)
+                        .map_or_else(
+                            || (Se2::identity(), 0.0),
+                            |link| (link.here_from_there, link.odometry_m),
+                        );
+                    let odometry_m = before_row.odometry_m + drifting_m;
+                    (Some(parent), before_row.root_from_vertex * step, odometry_m)
                 }
             };
             scope.placed.push(Placed {
                 vertex: settled.node,
                 root_from_vertex,
                 distance_m: settled.cost,
+                odometry_m,
                 parent,
             });
         }

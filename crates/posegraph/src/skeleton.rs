@@ -5,7 +5,7 @@ use std::sync::Arc;
 use pose::Se2;
 use probe::{EdgeId, IdVec, VertexId};
 
-use crate::{Edge, ScopeScratch};
+use crate::{Edge, EdgeKind, ScopeScratch};
 
 /// The measured edges that a link stands for, in the order in which they are walked.
 #[derive(Clone, Debug, PartialEq)]
@@ -39,6 +39,8 @@ pub struct Link {
     pub here_from_there: Se2,
     /// Length of the way, metres: the sum over the edges that it stands for.
     pub length_m: f64,
+    /// How much of that is odometry, metres: only this drifts.
+    pub odometry_m: f64,
     /// The measured edges that the link stands for.
     pub via: Via,
 }
@@ -49,6 +51,7 @@ struct Anchor {
     host: VertexId,
     host_from_vertex: Se2,
     length_m: f64,
+    odometry_m: f64,
     via: Via,
 }
 
@@ -131,11 +134,14 @@ impl Skeleton {
     pub fn add_edge(&mut self, id: EdgeId, edge: &Edge) -> Option<(VertexId, VertexId, f64)> {
         let mut via = Via::Edge(id);
         let mut length_m = edge.length_m;
+        let is_odometry = edge.kind == EdgeKind::Odometry;
+        let mut odometry_m = if is_odometry { edge.length_m } else { 0.0 };
         let mut a_from_b = edge.a_from_b;
         let (mut a, mut b) = (edge.a, edge.b);
         while let Some(anchor) = self.nodes[a].anchor.clone() {
             via = anchor.via.join(&via);
             length_m += anchor.length_m;
+            odometry_m += anchor.odometry_m;
             a_from_b = anchor.host_from_vertex * a_from_b;
             a = anchor.host;
         }
@@ -143,13 +149,14 @@ impl Skeleton {
             let back: Arc<[EdgeId]> = anchor.via.edges().iter().rev().copied().collect();
             via = via.join(&Via::Chain(back));
             length_m += anchor.length_m;
+            odometry_m += anchor.odometry_m;
             a_from_b = a_from_b * anchor.host_from_vertex.inverse();
             b = anchor.host;
         }
         if a == b {
             return None;
         }
-        self.connect(a, b, a_from_b, length_m, via);
+        self.connect(a, b, a_from_b, (length_m, odometry_m), via);
         Some((a, b, length_m))
     }
 
@@ -170,14 +177,28 @@ impl Skeleton {
         nodes + chains
     }
 
-    fn connect(&mut self, a: VertexId, b: VertexId, a_from_b: Se2, length_m: f64, via: Via) {
+    fn connect(
+        &mut self,
+        a: VertexId,
+        b: VertexId,
+        a_from_b: Se2,
+        (length_m, odometry_m): (f64, f64),
+        via: Via,
+    ) {
         let back = Via::Chain(via.edges().iter().rev().copied().collect());
         let back = if let Via::Edge(edge) = via { Via::Edge(edge) } else { back };
-        self.nodes[a].links.push(Link { to: b, here_from_there: a_from_b, length_m, via });
+        self.nodes[a].links.push(Link {
+            to: b,
+            here_from_there: a_from_b,
+            length_m,
+            odometry_m,
+            via,
+        });
         self.nodes[b].links.push(Link {
             to: a,
             here_from_there: a_from_b.inverse(),
             length_m,
+            odometry_m,
             via: back,
         });
     }
@@ -207,6 +228,7 @@ impl Skeleton {
             host: nearest.to,
             host_from_vertex: nearest.here_from_there.inverse(),
             length_m: nearest.length_m,
+            odometry_m: nearest.odometry_m,
             via: Via::Chain(nearest.via.edges().iter().rev().copied().collect()),
         });
         self.retired += 1;
@@ -230,7 +252,8 @@ impl Skeleton {
             let x_from_y = x.here_from_there.inverse() * y.here_from_there;
             let back: Arc<[EdgeId]> = x.via.edges().iter().rev().copied().collect();
             let via = Via::Chain(back).join(&y.via);
-            self.replace(x.to, y.to, x_from_y, length_m, via);
+            let lengths_m = (length_m, x.odometry_m + y.odometry_m);
+            self.replace(x.to, y.to, x_from_y, lengths_m, via);
         }
         true
     }
@@ -245,19 +268,27 @@ impl Skeleton {
                 host: next.host,
                 host_from_vertex: next.host_from_vertex * anchor.host_from_vertex,
                 length_m: next.length_m + anchor.length_m,
+                odometry_m: next.odometry_m + anchor.odometry_m,
                 via: next.via.join(&anchor.via),
             };
         }
         self.retired -= 1;
-        let Anchor { host, host_from_vertex, length_m, via } = anchor;
-        self.connect(host, vertex, host_from_vertex, length_m, via);
+        let Anchor { host, host_from_vertex, length_m, odometry_m, via } = anchor;
+        self.connect(host, vertex, host_from_vertex, (length_m, odometry_m), via);
         true
     }
 
     /// Adds a link and drops longer ones between the same two vertices.
-    fn replace(&mut self, a: VertexId, b: VertexId, a_from_b: Se2, length_m: f64, via: Via) {
+    fn replace(
+        &mut self,
+        a: VertexId,
+        b: VertexId,
+        a_from_b: Se2,
+        lengths_m: (f64, f64),
+        via: Via,
+    ) {
         self.nodes[a].links.retain(|link| link.to != b);
         self.nodes[b].links.retain(|link| link.to != a);
-        self.connect(a, b, a_from_b, length_m, via);
+        self.connect(a, b, a_from_b, lengths_m, via);
     }
 }

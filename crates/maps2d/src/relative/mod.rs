@@ -37,6 +37,6 @@ pub use book::{Closing, PathBook};
 pub use chains::{Chain, ChainPart};
 pub use events::{Cause, ConsolidationEvent, ReopenCause};
 pub use map::RelativeMap;
-pub use params::RelativeParams;
+pub use params::{Certainty, RelativeParams};
 pub use query::{Fate, FrontierPiece, WhyLeft};
 pub use state::VolumeState;

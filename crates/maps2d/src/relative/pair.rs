@@ -5,7 +5,7 @@ use pose::Se2;
 use probe::VertexId;
 
 use super::walls::{spans_along_walls, spans_given_up};
-use super::{Cause, Closing, ConsolidationEvent, RelativeMap, VolumeState};
+use super::{Cause, Certainty, Closing, ConsolidationEvent, RelativeMap, VolumeState};
 use crate::MapProbe;
 use crate::volume::LocalVolume;
 
@@ -17,6 +17,7 @@ pub(super) struct Work {
     /// Parts to close: frontier edge and stretch.
     spans: Vec<(usize, Interval)>,
     clipped: Vec<Interval>,
+    placements: Vec<Se2>,
     newly: Vec<Interval>,
     touched: Vec<(VertexId, VertexId)>,
 }
@@ -96,13 +97,18 @@ impl RelativeMap {
             let mut spans = std::mem::take(&mut self.work.spans);
             spans.clear();
             match cause {
-                Cause::Inside => spans_inside(
-                    &state,
-                    &other.volume,
-                    &at_from_against,
-                    &mut self.work.clipped,
-                    &mut spans,
-                ),
+                Cause::Inside => {
+                    let rows = self.scope.placed();
+                    // What the two ways share towards the root does not drift between them; at the
+                    // root there is nothing to share, elsewhere this says rather too much.
+                    let odometry_m = rows[target].odometry_m + rows[source].odometry_m;
+                    let certainty = &self.params.certainty;
+                    let mut poses = std::mem::take(&mut self.work.placements);
+                    placements(&at_from_against, odometry_m, certainty, &mut poses);
+                    let clipped = &mut self.work.clipped;
+                    spans_inside(&state, &other.volume, &poses, clipped, &mut spans);
+                    self.work.placements = poses;
+                }
                 Cause::Wall => spans_along_walls(
                     &state,
                     &other.volume,
@@ -177,33 +183,69 @@ impl RelativeMap {
     }
 }
 
-/// The stretches of open frontier of `state` that lie strictly inside `other`.
+/// The stretches of open frontier of `state` that lie strictly inside `other`, under each of the
+/// placements.
 ///
 /// Whole edges are clipped, not their open parts, so that a stretch does not depend on what was
 /// closed before.
 fn spans_inside(
     state: &VolumeState,
     other: &LocalVolume,
-    at_from_other: &Se2,
+    placements: &[Se2],
     clipped: &mut Vec<Interval>,
     spans: &mut Vec<(usize, Interval)>,
 ) {
     let reach_m = state.volume.radius_m() + other.inner.outer_radius();
-    if at_from_other.translation.norm_squared() > reach_m * reach_m {
+    if placements[0].translation.norm_squared() > reach_m * reach_m {
         return;
     }
-    let other_from_at = at_from_other.inverse();
+    let mut common: Vec<Interval> = Vec::new();
     for (edge, ledger) in state.ledgers.iter().enumerate() {
         if ledger.is_closed() {
             continue;
         }
         let frontier = &state.volume.frontier[edge];
-        clipped.clear();
-        other.inner.clip(
-            &other_from_at.transform(&frontier.from),
-            &other_from_at.transform(&frontier.to),
-            clipped,
-        );
-        spans.extend(clipped.iter().map(|&span| (edge, span)));
+        for (i, other_from_at) in placements.iter().enumerate() {
+            clipped.clear();
+            other.inner.clip(
+                &other_from_at.transform(&frontier.from),
+                &other_from_at.transform(&frontier.to),
+                clipped,
+            );
+            if i == 0 {
+                common.clone_from(clipped);
+            } else {
+                common = shared(&common, clipped);
+            }
+            if common.is_empty() {
+                break;
+            }
+        }
+        spans.extend(common.iter().map(|&span| (edge, span)));
+    }
+}
+
+/// What two sorted lists of disjoint stretches have in common.
+fn shared(a: &[Interval], b: &[Interval]) -> Vec<Interval> {
+    a.iter().flat_map(|x| b.iter().filter_map(|y| x.overlap(y))).collect()
+}
+
+/// `other_from_at` as estimated, and as it would be were the odometry in between wrong by the named
+/// number of standard deviations.
+fn placements(at_from_other: &Se2, odometry_m: f64, certainty: &Certainty, out: &mut Vec<Se2>) {
+    let other_from_at = at_from_other.inverse();
+    out.clear();
+    out.push(other_from_at);
+    let root = certainty.sigmas * odometry_m.max(0.0).sqrt();
+    let (shift_m, turn_rad) =
+        (root * certainty.sigma_translation, root * certainty.sigma_rotation_rad);
+    if turn_rad > 0.0 {
+        out.push(Se2::from_angle(turn_rad) * other_from_at);
+        out.push(Se2::from_angle(-turn_rad) * other_from_at);
+    }
+    if shift_m > 0.0 {
+        for (x_m, y_m) in [(shift_m, 0.0), (-shift_m, 0.0), (0.0, shift_m), (0.0, -shift_m)] {
+            out.push(Se2::new(x_m, y_m, 0.0) * other_from_at);
+        }
     }
 }
