@@ -111,6 +111,9 @@ pub(super) struct RunArgs {
 pub(super) struct InspectArgs {
     /// The recording, an `.rrd` file; or the folder of a run
     pub(super) file: PathBuf,
+    /// Tell how this other recording differs in what it says
+    #[arg(long, value_name = "OTHER")]
+    pub(super) diff: Option<PathBuf>,
 }
 
 #[derive(Debug, Args)]

@@ -20,11 +20,6 @@ impl Out {
         Self { json: global.json, quiet: global.quiet, verbose: global.verbose }
     }
 
-    /// Whether the one result is a JSON object.
-    pub(super) fn is_json(&self) -> bool {
-        self.json
-    }
-
     /// Whether a bar may be drawn.
     pub(super) fn shows_progress(&self) -> bool {
         !self.quiet && io::stderr().is_terminal()

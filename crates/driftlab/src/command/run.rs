@@ -1,13 +1,146 @@
 //! `driftlab run`: one experiment.
 
+use std::fs;
+use std::path::{Path, PathBuf};
+
 use anyhow::anyhow;
+use serde_json::json;
 
 use super::args::RunArgs;
 use super::config::load;
 use super::failure::Failure;
 use super::out::Out;
+use super::progress::Bar;
+use super::table::table;
+use crate::config::Level;
+use crate::run::{
+    Experiment, Input, Outcome, RunFolder, StepRow, files, names, run_experiment, to_json,
+};
 
-pub(super) fn run(args: &RunArgs, _out: &Out) -> Result<(), Failure> {
-    let _loaded = load(&args.input)?;
-    Err(Failure::Work(anyhow!("todo")))
+pub(super) fn run(args: &RunArgs, out: &Out) -> Result<(), Failure> {
+    let loaded = load(&args.input)?;
+    let default = || PathBuf::from("recordings").join(&loaded.config.name);
+    let dir = args.out.clone().unwrap_or_else(default);
+    RunFolder::check(&dir, args.force)?;
+    check_recording(args, loaded.config.record.level)?;
+    let experiment = Experiment::prepare(&loaded)?;
+    for warning in &experiment.place.warnings {
+        out.note(&format!("warning: {warning}"));
+    }
+    let bytes = fs::read(&loaded.path).map_err(Failure::work)?;
+    let config_input = Input::new(&loaded.path, &bytes);
+    let (columns, rows) = experiment.coverage.size();
+    out.detail(&format!(
+        "{}: {columns} x {rows} cells, {} of them to be seen",
+        experiment.place.world.name(),
+        experiment.coverage.cells_reachable()
+    ));
+
+    let mut folder = RunFolder::create(&dir, args.force)?;
+    let recording = args.record.clone().unwrap_or_else(|| folder.recording());
+    let mut bars = Bars { out, current: None };
+    let outcome = run_experiment(&experiment, &recording, loaded.header(), &mut |row| {
+        bars.step(row);
+    });
+    bars.clear();
+    let outcome = outcome.map_err(Failure::work)?;
+    for (name, content) in files(&experiment, &outcome, config_input).map_err(Failure::work)? {
+        folder.write(name, &content)?;
+    }
+    folder.finish()?;
+
+    report(&dir, &outcome, out)?;
+    out.note(&format!("wrote {}", dir.display()));
+    if experiment.config.record.level != Level::Off {
+        let shown = if args.record.is_some() { recording } else { dir.join(names::RECORDING) };
+        out.note(&format!("step through it with: driftlab view {}", shown.display()));
+    }
+    Ok(())
+}
+
+/// A recording somewhere else must not hit a file that is there already.
+fn check_recording(args: &RunArgs, level: Level) -> Result<(), Failure> {
+    let Some(file) = &args.record else { return Ok(()) };
+    if level == Level::Off {
+        let hint = "expected record.level \"summary\" or \"full\" with --record";
+        return Err(Failure::Input(anyhow!("record.level is \"off\"; {hint}")));
+    }
+    if file.is_dir() || (file.exists() && !args.force) {
+        let hint = "name another file, or --force to replace it";
+        return Err(Failure::Input(anyhow!("{}: is there already; {hint}", file.display())));
+    }
+    let folder = file.parent().filter(|folder| !folder.as_os_str().is_empty());
+    match folder {
+        Some(folder) if !folder.is_dir() => {
+            Err(Failure::Input(anyhow!("{}: no such folder", folder.display())))
+        }
+        _ => Ok(()),
+    }
+}
+
+fn report(dir: &Path, outcome: &Outcome, out: &Out) -> Result<(), Failure> {
+    let metrics = to_json(&outcome.metrics).map_err(Failure::work)?;
+    let timing = to_json(&outcome.timing).map_err(Failure::work)?;
+    let header = [
+        "map",
+        "believed complete",
+        "really complete",
+        "coverage",
+        "distance m",
+        "d_exp m",
+        "steps",
+        "µs/step median",
+        "p99",
+    ];
+    let yes = |is: bool| if is { "yes" } else { "no" }.to_owned();
+    let rows: Vec<Vec<String>> = outcome
+        .metrics
+        .maps
+        .iter()
+        .zip(&outcome.timing.maps)
+        .map(|((name, map), (_, timing))| {
+            vec![
+                name.clone(),
+                yes(map.believed_complete),
+                yes(map.coverage == 1.0),
+                format!("{:.4}", map.coverage),
+                format!("{:.1}", map.distance_m),
+                map.d_exp_m.map_or_else(|| "-".to_owned(), |d_exp_m| format!("{d_exp_m:.1}")),
+                map.steps.to_string(),
+                format!("{:.0}", timing.step_micros_median),
+                format!("{:.0}", timing.step_micros_p99),
+            ]
+        })
+        .collect();
+    let json = json!({ "dir": dir, "metrics": metrics, "timing": timing });
+    out.result(&json, &table(&header, &rows))
+}
+
+/// One bar after the other, for the robot that is on its way.
+struct Bars<'a> {
+    out: &'a Out,
+    current: Option<(String, Bar)>,
+}
+
+impl Bars<'_> {
+    fn step(&mut self, row: &StepRow) {
+        if self.current.as_ref().is_none_or(|(map, _)| *map != row.map) {
+            self.clear();
+            self.current = Some((row.map.clone(), Bar::new(&row.map, self.out)));
+        }
+        if let Some((_, bar)) = &mut self.current {
+            bar.update(row.coverage, || {
+                format!(
+                    "seen, step {}, {:.0} m, {:.1} m of frontier open",
+                    row.step, row.distance_m, row.frontier_open_m
+                )
+            });
+        }
+    }
+
+    fn clear(&mut self) {
+        if let Some((_, bar)) = self.current.take() {
+            bar.clear();
+        }
+    }
 }

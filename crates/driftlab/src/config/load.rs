@@ -33,6 +33,7 @@ pub struct Loaded {
     pub path: PathBuf,
     spans: BTreeMap<String, Spans>,
     sources: Sources,
+    header: String,
 }
 
 impl Loaded {
@@ -104,7 +105,8 @@ impl Loaded {
         if !spans.contains_key("name") {
             config.name = name_of(path);
         }
-        let loaded = Self { config, path: path.to_owned(), spans, sources };
+        let loaded =
+            Self { config, path: path.to_owned(), spans, sources, header: header_of(text) };
         match loaded.first(faults(&loaded.config)) {
             Some(error) => Err(error),
             None => Ok(loaded),
@@ -124,6 +126,11 @@ impl Loaded {
             found: format!("{}{key}", fault.found),
             expected: with_meaning(&fault.expected, &fault.path),
         })
+    }
+
+    /// What the file says about itself: its first comment, without the `#`.
+    pub fn header(&self) -> &str {
+        &self.header
     }
 
     /// Where the value of a dotted key was written; for one that was not, its table or the file.
@@ -158,6 +165,17 @@ impl Loaded {
         }
         config
     }
+}
+
+/// The first comment of a config, without the line for editors.
+fn header_of(text: &str) -> String {
+    let comments = text.lines().filter(|line| !line.starts_with("#:"));
+    let comments = comments.skip_while(|line| line.trim().is_empty());
+    let lines: Vec<&str> = comments
+        .map_while(|line| line.strip_prefix('#'))
+        .map(|line| line.strip_prefix(' ').unwrap_or(line))
+        .collect();
+    lines.join("\n").trim().to_owned()
 }
 
 fn world_text(file: &Path, kind: &str) -> String {

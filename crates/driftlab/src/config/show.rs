@@ -149,7 +149,11 @@ fn optional_tables() -> Vec<(&'static str, bool, toml::Table)> {
         (
             "world.image",
             false,
-            table_of(&ImageWorld { file: "floor.png".into(), ..ImageWorld::default() }),
+            table_of(&ImageWorld {
+                file: "floor.png".into(),
+                solid_below: Some(0.5),
+                ..ImageWorld::default()
+            }),
         ),
         ("world.polygons", false, table_of(&PolygonsWorld::default())),
         ("world.rooms", false, table_of(&RoomsWorld::default())),

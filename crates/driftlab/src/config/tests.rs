@@ -27,6 +27,13 @@ fn every_value_remembers_who_gave_it() {
 }
 
 #[test]
+fn the_first_comment_is_what_the_file_says_about_itself() {
+    let text = format!("#:schema x.json\n\n# A maze.\n#\n# It winds.\n\n# not this\n{MAZE}");
+    assert_eq!(load(&text, &[]).unwrap().header(), "A maze.\n\nIt winds.");
+    assert_eq!(load(MAZE, &[]).unwrap().header(), "");
+}
+
+#[test]
 fn the_resolved_text_means_the_same() {
     let loaded = load(MAZE, &["world.maze={}", "sensor.fov_deg=360"]).unwrap();
     let again = load(&resolved_toml(&loaded), &[]).unwrap();

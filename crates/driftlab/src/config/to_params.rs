@@ -105,6 +105,7 @@ impl From<&RelativeMap> for RelativeParams {
             wall_closing_m: map.wall_closing_m,
             sliver_m: map.sliver_m,
             retire: map.retire,
+            ..Self::default()
         }
     }
 }

@@ -4,7 +4,8 @@
 //! |---|---|
 //! | `experiment`, `place` | from a config to a place with a start |
 //! | `drive`, `timed` | one robot's run to its end, and what it cost |
-//! | `watch` | who looks on: a recording, or nobody |
+//! | `watch`, `record` | who looks on: a recording, or nobody |
+//! | `session` | all robots of an experiment |
 //! | `report`, `steps`, `provenance` | the files of a run |
 //! | `folder` | how they get their names |
 
@@ -13,7 +14,9 @@ mod experiment;
 mod folder;
 mod place;
 mod provenance;
+mod record;
 mod report;
+mod session;
 mod steps;
 mod timed;
 mod watch;
@@ -23,6 +26,8 @@ pub use experiment::Experiment;
 pub use folder::{FolderError, RunFolder, names};
 pub use place::{Place, build_place};
 pub use provenance::{GIT_HASH, Input, Provenance, VERSION};
+pub use record::start_recording;
 pub use report::{MapMetrics, MapTiming, MetricsReport, TimingReport, quantile, to_file, to_json};
+pub use session::{Outcome, RunError, files, run_experiment};
 pub use steps::{StepRow, StepsError, to_parquet};
 pub use watch::{StepSeen, Watch};

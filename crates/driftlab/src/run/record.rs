@@ -1,0 +1,84 @@
+//! The recording of a run.
+
+use std::path::Path;
+
+use instrument::{
+    Every, Family, InstrumentError, Level, MapOptions, Recorder, Recording, RecordingOptions,
+    StepEnd,
+};
+use metrics::Coverage;
+use worlds::World2d;
+
+use super::{Experiment, StepSeen, Watch};
+use crate::config::{self, plain_toml};
+
+/// Starts the recording of an experiment; at level `off` no file is made.
+///
+/// `about` is what the text page says first.
+///
+/// # Errors
+/// Where the file cannot be created.
+pub fn start_recording(
+    experiment: &Experiment,
+    path: &Path,
+    about: &str,
+) -> Result<Recording, InstrumentError> {
+    let config = &experiment.config;
+    let level = match config.record.level {
+        config::Level::Off => Level::Off,
+        config::Level::Summary => Level::Summary,
+        config::Level::Full => Level::Full,
+    };
+    let config::Every { sensing, pose_graph, consolidation, grid, planner, truth } =
+        config.record.every;
+    let every = Every::STEP
+        .with(Family::Sensing, sensing)
+        .with(Family::PoseGraph, pose_graph)
+        .with(Family::Consolidation, consolidation)
+        .with(Family::Grid, grid)
+        .with(Family::Planner, planner)
+        .with(Family::Truth, truth);
+    let scope_m = config.map.relative.as_ref().map_or(0.0, |map| map.consolidation_radius_m);
+    Recording::create(RecordingOptions {
+        path: path.to_owned(),
+        name: config.name.clone(),
+        level,
+        every,
+        maps: experiment.robots().iter().map(|maps| MapOptions::of_kind(maps[0])).collect(),
+        about: about.to_owned(),
+        config: plain_toml(config),
+        bounds_in_world: experiment.place.world.bounds(),
+        follow: false,
+        sight_m: scope_m.min(20.0) + config.sensor.range_m,
+    })
+}
+
+impl Watch for Recorder {
+    type Error = InstrumentError;
+
+    fn place(&mut self, world: &World2d, coverage: &Coverage) -> Result<(), InstrumentError> {
+        Recorder::place(self, world, coverage)
+    }
+
+    fn step_begins(&mut self, step: u64, distance_m: f64, sim_time_secs: f64) {
+        self.begin_step(step, distance_m, sim_time_secs);
+    }
+
+    fn step_ends(&mut self, end: &StepSeen<'_>) -> Result<(), InstrumentError> {
+        let row = end.row;
+        let drift_m = (row.world_from_body.translation - row.odom_from_body.translation).norm();
+        self.end_step(&StepEnd {
+            standing: end.report.standing,
+            distance_m: row.distance_m,
+            sim_time_secs: row.sim_time_secs,
+            witness: Some(end.witness),
+            newly_seen: end.newly_seen,
+            numbers: &[
+                ("coverage", row.coverage),
+                ("frontier_open_m", row.frontier_open_m),
+                ("frontier_ignored_m", row.frontier_ignored_m),
+                ("odometry_error_m", drift_m),
+            ],
+        })
+    }
+}

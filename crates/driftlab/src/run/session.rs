@@ -1,0 +1,109 @@
+//! The whole run: every robot in turn, then the reports.
+
+use std::path::Path;
+use std::time::Instant;
+
+use instrument::InstrumentError;
+
+use super::{
+    Experiment, Input, MapRun, MetricsReport, Provenance, StepRow, StepsError, TimingReport,
+    VERSION, drive, provenance::GIT_HASH, report, start_recording, to_parquet,
+};
+
+/// What came of a run.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Outcome {
+    /// `metrics.json`.
+    pub metrics: MetricsReport,
+    /// `timing.json`.
+    pub timing: TimingReport,
+    /// The rows of `steps.parquet`.
+    pub rows: Vec<StepRow>,
+}
+
+/// Why a run failed.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum RunError {
+    /// The recording cannot be written.
+    #[error(transparent)]
+    Recording(#[from] InstrumentError),
+    /// A report cannot be put into its form.
+    #[error(transparent)]
+    Report(#[from] serde_json::Error),
+    /// The table of steps cannot be made.
+    #[error(transparent)]
+    Steps(#[from] StepsError),
+    /// The provenance cannot be put into its form.
+    #[error(transparent)]
+    Provenance(#[from] toml::ser::Error),
+}
+
+/// Runs every robot of an experiment, one after the other, and records them to `recording`.
+///
+/// `on_step` is told of every step. The outcome but for the timing follows from the experiment
+/// alone.
+///
+/// # Errors
+/// [`RunError::Recording`].
+pub fn run_experiment(
+    experiment: &Experiment,
+    recording: &Path,
+    about: &str,
+    on_step: &mut dyn FnMut(&StepRow),
+) -> Result<Outcome, RunError> {
+    let started = Instant::now();
+    let recording = start_recording(experiment, recording, about)?;
+    let mut runs: Vec<MapRun> = Vec::new();
+    for kinds in experiment.robots() {
+        let mut recorder = recording.recorder(kinds[0]);
+        let Experiment { config, place, coverage } = experiment;
+        runs.extend(drive(config, &place.world, coverage, &kinds, &mut recorder, on_step)?);
+        recorder.send()?;
+    }
+    let mut outcome = Outcome {
+        metrics: MetricsReport {
+            name: experiment.config.name.clone(),
+            seed: experiment.config.seed,
+            maps: runs.iter().map(|run| (run.name.to_owned(), run.metrics.clone())).collect(),
+        },
+        timing: TimingReport {
+            maps: runs.iter().map(|run| (run.name.to_owned(), run.timing.clone())).collect(),
+            wall_secs: 0.0,
+        },
+        rows: runs.into_iter().flat_map(|run| run.rows).collect(),
+    };
+    recording.finish(&report::to_json(&outcome.metrics)?)?;
+    outcome.timing.wall_secs = started.elapsed().as_secs_f64();
+    Ok(outcome)
+}
+
+/// The files of a run but for its recording: name and content.
+///
+/// # Errors
+/// Where a report cannot be put into its form.
+pub fn files(
+    experiment: &Experiment,
+    outcome: &Outcome,
+    config_input: Input,
+) -> Result<Vec<(&'static str, Vec<u8>)>, RunError> {
+    use super::names;
+    let ended = outcome.metrics.maps.iter();
+    let mut inputs = vec![config_input];
+    inputs.extend(experiment.place.inputs.iter().cloned());
+    let provenance = Provenance {
+        version: VERSION,
+        git_hash: GIT_HASH,
+        seed: experiment.config.seed,
+        termination: ended.map(|(name, map)| (name.clone(), map.termination.clone())).collect(),
+        inputs,
+    };
+    Ok(vec![
+        (names::CONFIG, crate::config::plain_toml(&experiment.config).into_bytes()),
+        (names::STEPS, to_parquet(&outcome.rows)?),
+        (names::TIMING, report::to_file(&outcome.timing)?),
+        (names::PROVENANCE, provenance.to_toml()?.into_bytes()),
+        // Last, as the sign that all the others are there.
+        (names::METRICS, report::to_file(&outcome.metrics)?),
+    ])
+}
