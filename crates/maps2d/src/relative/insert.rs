@@ -51,12 +51,18 @@ impl RelativeMap {
         }
         self.totals.add(&state);
         self.volumes[vertex] = Some(Box::new(state));
+        let mut lost: Vec<Vec<(usize, Interval)>> = Vec::with_capacity(doubtful.len());
         for &other in &doubtful {
-            self.reopen_what_closed(other, vertex, probe);
+            lost.push(self.reopen_what_closed(other, vertex, probe));
             self.restore_if_it_counts(other, probe);
         }
         self.compare_with_scope(vertex, probe);
-        for other in doubtful {
+        for (other, parts) in doubtful.into_iter().zip(lost) {
+            // What this volume does not close any more may lie inside others, which were not asked
+            // while it was closed.
+            if self.any_open(other, &parts) {
+                self.compare_with_scope(other, probe);
+            }
             self.retire_if_spent(other, probe);
         }
         if let Some(left) = self.stood.replace(vertex)
@@ -67,15 +73,22 @@ impl RelativeMap {
     }
 
     /// The volume that closed parts of `other` has changed: they are open until it closes them again.
+    /// Returns them, by edge.
     ///
     /// A ray between two old ones may show that the edge between them cut a corner.
-    fn reopen_what_closed(&mut self, other: VertexId, by: VertexId, probe: &mut dyn MapProbe) {
-        let Some(state) = self.volumes[other].as_deref_mut() else { return };
+    fn reopen_what_closed(
+        &mut self,
+        other: VertexId,
+        by: VertexId,
+        probe: &mut dyn MapProbe,
+    ) -> Vec<(usize, Interval)> {
+        let mut reopened: Vec<(usize, Interval)> = Vec::new();
+        let Some(state) = self.volumes[other].as_deref_mut() else { return reopened };
         let on = probe::Probe::<ConsolidationEvent<'_>>::on(probe);
         let mut parts: Vec<Interval> = Vec::new();
-        for (edge, ledger) in state.volume.frontier.iter().zip(&mut state.ledgers) {
+        for (i, edge) in state.volume.frontier.iter().enumerate() {
             parts.clear();
-            ledger.reopen(
+            state.ledgers[i].reopen(
                 |closing: &Closing| closing.by == by && closing.cause != Cause::Unreachable,
                 &mut parts,
             );
@@ -83,8 +96,19 @@ impl RelativeMap {
                 let cause = ReopenCause::VolumeReplaced(by);
                 probe.emit(ConsolidationEvent::Reopened { volume: other, edge, span, cause });
             }
+            reopened.extend(parts.iter().map(|&span| (i, span)));
         }
         self.remeasure(other);
+        reopened
+    }
+
+    /// Whether anything of these parts of frontier edges is open.
+    fn any_open(&self, vertex: VertexId, parts: &[(usize, Interval)]) -> bool {
+        self.volume(vertex).is_some_and(|state| {
+            parts.iter().any(|(edge, span)| {
+                state.ledgers[*edge].open().any(|open| open.overlap(span).is_some())
+            })
+        })
     }
 
     /// Room for a vertex in the volumes and in the skeleton.
