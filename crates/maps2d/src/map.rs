@@ -41,19 +41,27 @@ pub struct Clearance {
     pub at_start_m: f64,
     /// The least along all of it; 0 where it leaves known free space.
     pub along_m: f64,
+    /// The least along what comes after its first [`LEAVING_M`](Self::LEAVING_M).
+    pub after_m: f64,
     /// At its end.
     pub at_end_m: f64,
 }
 
 impl Clearance {
     /// Leaves known free space.
-    pub const NONE: Self = Self { at_start_m: 0.0, along_m: 0.0, at_end_m: 0.0 };
+    pub const NONE: Self = Self { at_start_m: 0.0, along_m: 0.0, after_m: 0.0, at_end_m: 0.0 };
 
-    /// Whether the motion keeps a distance; or, where it starts nearer than that, gets no nearer on
-    /// the way and ends at that distance. A robot that was pushed to a wall can so leave it.
+    /// Within this distance a robot that stands too near to something has to get away from it,
+    /// metres.
+    pub const LEAVING_M: f64 = 0.1;
+
+    /// Whether the motion keeps a distance; or, where it starts nearer than that, leaves at once, at
+    /// an angle of 30 degrees or more, and ends at that distance. A robot that was pushed to a wall
+    /// can so leave it, but does not slide along it.
     pub fn keeps(&self, least_m: f64) -> bool {
         let away = self.along_m > 0.0
             && self.along_m >= 0.99 * self.at_start_m
+            && self.after_m >= 0.5 * Self::LEAVING_M.min(least_m)
             && self.at_end_m >= least_m;
         self.along_m >= least_m || (self.at_start_m < least_m && away)
     }

@@ -104,11 +104,24 @@ impl LocalVolume {
         let origin = Point2::origin();
         let posts = self.posts.iter().map(|post| (*post, *post));
         let walls = self.obstacles.iter().map(|wall| (wall.from, wall.to)).chain(posts);
-        let mut clearance =
-            Clearance { at_start_m: f64::MAX, along_m: f64::MAX, at_end_m: f64::MAX };
+        let mut clearance = Clearance {
+            at_start_m: f64::MAX,
+            along_m: f64::MAX,
+            after_m: f64::MAX,
+            at_end_m: f64::MAX,
+        };
+        let length_m = to_in_anchor.coords.norm();
+        let first_m = Clearance::LEAVING_M.min(length_m);
+        let away = if length_m > 0.0 {
+            Point2::from(to_in_anchor.coords * (first_m / length_m))
+        } else {
+            origin
+        };
         for (from, to) in walls {
             let along_m = segment_segment_distance(&origin, to_in_anchor, &from, &to);
             clearance.along_m = clearance.along_m.min(along_m);
+            let after_m = segment_segment_distance(&away, to_in_anchor, &from, &to);
+            clearance.after_m = clearance.after_m.min(after_m);
             let start_m = point_segment_distance(&origin, &from, &to);
             clearance.at_start_m = clearance.at_start_m.min(start_m);
             let end_m = point_segment_distance(to_in_anchor, &from, &to);

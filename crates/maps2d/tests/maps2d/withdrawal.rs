@@ -1,6 +1,5 @@
 //! A place edge that is taken back opens exactly what relied on it.
 
-use maps2d::ExplorationMap;
 use maps2d::relative::{Fate, FrontierPiece, RelativeMap, RelativeParams};
 use probe::{EdgeId, VertexId};
 use proptest::prelude::*;
