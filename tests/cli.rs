@@ -212,6 +212,29 @@ fn a_map_that_drives_takes_the_others_along() {
 }
 
 #[test]
+fn a_run_that_is_killed_leaves_a_recording_that_opens() {
+    use std::time::{Duration, Instant};
+    let desk = Desk::new("[world.maze]\ncolumns = 60\nrows = 60\n[map.relative]\n");
+    let mut run = std::process::Command::new(assert_cmd::cargo::cargo_bin("driftlab"))
+        .current_dir(desk.folder.path())
+        .args(["run", "a.toml", "--out", "r", "-q"])
+        .spawn()
+        .expect("it starts");
+    let enough = || fs::metadata(desk.path("r/run.rrd")).is_ok_and(|file| file.len() > 300_000);
+    let start = Instant::now();
+    while !enough() && start.elapsed() < Duration::from_secs(8) {
+        std::thread::sleep(Duration::from_millis(20));
+    }
+    assert!(run.try_wait().expect("it can be asked").is_none(), "it ended too early to be killed");
+    run.kill().expect("it can be killed");
+    run.wait().expect("it ends");
+    assert_eq!(desk.listing(), ["a.toml", "r", "r/run.rrd"]);
+    let result = json(&desk.driftlab(&["inspect", "r", "--json"]));
+    assert_eq!((&result["metrics"], &result["has_layout"]), (&Value::Null, &true.into()));
+    assert!(result["rows"].as_u64().is_some_and(|rows| rows > 100), "{}", result["rows"]);
+}
+
+#[test]
 fn a_run_is_not_overwritten_without_force() {
     let desk = Desk::new(SMALL);
     let run = |more: &[&str]| {

@@ -43,6 +43,11 @@ pub struct RelativeMap {
     /// A connected chain of frontier shorter than this is not worth a visit, metres.
     #[schemars(range(min = 0.0))]
     pub sliver_m: f64,
+    /// Frontier counts as inside another polygon only if it stays inside when their relative pose
+    /// is wrong by so many standard deviations of the odometry between them. 0 trusts placement, as
+    /// the paper does.
+    #[schemars(range(min = 0.0))]
+    pub certainty_sigmas: f64,
     /// Take volumes that add nothing out of later comparisons; no frontier changes by it.
     pub retire: bool,
     /// When two neighbouring hits belong to different things.
@@ -72,6 +77,7 @@ impl Default for RelativeMap {
             strict_margin_m: 0.01,
             wall_closing_m: 0.3,
             sliver_m: 0.4,
+            certainty_sigmas: 0.0,
             retire: true,
             occlusion: Occlusion::Range,
             insert_occlusion_vertex: false,

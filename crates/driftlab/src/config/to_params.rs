@@ -2,7 +2,7 @@
 
 use explore::{ExploreParams, Policy, RapidParams};
 use maps2d::grid::GridParams;
-use maps2d::relative::RelativeParams;
+use maps2d::relative::{Certainty, RelativeParams};
 use maps2d::volume::{OcclusionRule, Options, VolumeParams};
 use metrics::CoverageParams;
 use worlds::generate::{
@@ -12,7 +12,7 @@ use worlds::{DriveParams, OdometryParams, PlaceParams, RobotParams, SensorParams
 
 use super::{
     CavesWorld, Config, CorridorWorld, GridMap, MazeWorld, Metrics, Occlusion, Odometry, Pillar,
-    PillarsWorld, Places, Planner, RapidPlanner, RelativeMap, Robot, RoomsWorld, Rule, Sensor,
+    PillarsWorld, Places, Planner, RapidPlanner, Robot, RoomsWorld, Rule, Sensor,
 };
 
 impl From<&Config> for RobotParams {
@@ -85,13 +85,18 @@ impl From<&Metrics> for CoverageParams {
     }
 }
 
-impl From<&RelativeMap> for RelativeParams {
-    fn from(map: &RelativeMap) -> Self {
+impl Config {
+    /// The parameters of the relative map, if it is built.
+    ///
+    /// Where certainty is asked for, the robot knows how noisy its wheels are.
+    pub fn relative_params(&self) -> Option<RelativeParams> {
+        let map = self.map.relative.as_ref()?;
         let occlusion = match map.occlusion {
             Occlusion::Range => OcclusionRule::Range,
             Occlusion::ForwardSigned => OcclusionRule::ForwardSigned,
         };
-        Self {
+        let known = self.odometry.scale * f64::from(u8::from(map.certainty_sigmas > 0.0));
+        Some(RelativeParams {
             volume: VolumeParams {
                 occlusion_gap_m: map.occlusion_gap_m,
                 strict_margin_m: map.strict_margin_m,
@@ -104,9 +109,13 @@ impl From<&RelativeMap> for RelativeParams {
             consolidation_radius_m: map.consolidation_radius_m,
             wall_closing_m: map.wall_closing_m,
             sliver_m: map.sliver_m,
+            certainty: Certainty {
+                sigmas: map.certainty_sigmas,
+                sigma_translation: known * self.odometry.sigma_translation,
+                sigma_rotation_rad: known * self.odometry.sigma_rotation.to_radians(),
+            },
             retire: map.retire,
-            ..Self::default()
-        }
+        })
     }
 }
 
@@ -137,6 +146,7 @@ impl From<&RapidPlanner> for RapidParams {
             visits_in_vain: planner.visits_in_vain,
             turns_at_a_place: planner.turns_at_a_place,
             teleport: planner.teleport,
+            ..Self::default()
         }
     }
 }
@@ -214,13 +224,14 @@ impl From<&CavesWorld> for CavesParams {
 
 #[cfg(test)]
 mod tests {
+    use super::super::RelativeMap;
     use super::*;
 
     #[test]
     fn the_defaults_here_are_the_defaults_below() {
         assert_eq!(RobotParams::from(&Config::default()), RobotParams::default());
         assert_eq!(CoverageParams::from(&Metrics::default()), CoverageParams::default());
-        assert_eq!(RelativeParams::from(&RelativeMap::default()), RelativeParams::default());
+        assert_eq!(with_relative(0.0).relative_params(), Some(RelativeParams::default()));
         assert_eq!(GridParams::from(&GridMap::default()), GridParams::default());
         assert_eq!(ExploreParams::from(&Config::default()), ExploreParams::default());
         assert_eq!(CorridorParams::from(&CorridorWorld::default()), CorridorParams::default());
@@ -228,6 +239,24 @@ mod tests {
         assert_eq!(MazeParams::from(&MazeWorld::default()), MazeParams::default());
         assert_eq!(PillarsParams::from(&PillarsWorld::default()), PillarsParams::default());
         assert_eq!(CavesParams::from(&CavesWorld::default()), CavesParams::default());
+    }
+
+    fn with_relative(certainty_sigmas: f64) -> Config {
+        let mut config = Config::default();
+        config.odometry.scale = 0.5;
+        config.map.relative = Some(RelativeMap { certainty_sigmas, ..RelativeMap::default() });
+        config
+    }
+
+    #[test]
+    fn certainty_knows_the_noise_of_the_wheels() {
+        let certainty = with_relative(2.0).relative_params().map(|params| params.certainty);
+        let expected = Certainty {
+            sigmas: 2.0,
+            sigma_translation: 0.05,
+            sigma_rotation_rad: 2.5_f64.to_radians(),
+        };
+        assert_eq!(certainty, Some(expected));
     }
 
     #[test]

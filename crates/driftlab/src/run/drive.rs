@@ -104,10 +104,7 @@ pub fn drive<W: Watch>(
 
 fn map_of(config: &Config, kind: &str) -> Option<Box<dyn ExplorationMap + Send>> {
     match kind {
-        "relative" => {
-            let params = config.map.relative.as_ref()?;
-            Some(Box::new(RelativeMap::new(params.into())))
-        }
+        "relative" => Some(Box::new(RelativeMap::new(config.relative_params()?))),
         "grid" => Some(Box::new(GridMap::new(config.map.grid.as_ref()?.into()))),
         _ => None,
     }

@@ -96,17 +96,17 @@ struct Files {
 }
 
 impl Files {
-    fn read(&mut self, path: &Path) -> Result<Vec<u8>, Trouble> {
+    fn read(&mut self, path: &Path, expected: &str) -> Result<Vec<u8>, Trouble> {
         let bytes = fs::read(path).map_err(|reason| Trouble::File {
             path: path.to_owned(),
-            message: format!("cannot be read ({reason})"),
+            message: format!("cannot be read ({reason}); expected {expected}"),
         })?;
         self.inputs.push(Input::new(path, &bytes));
         Ok(bytes)
     }
 
     fn image(&mut self, path: &Path) -> Result<GrayImage, Trouble> {
-        let bytes = self.read(path)?;
+        let bytes = self.read(path, "a PGM or PNG image")?;
         let extension = path.extension().and_then(|extension| extension.to_str());
         let image = match formats::sniff(&bytes, extension) {
             formats::Kind::Png => png::read(&bytes),
@@ -203,7 +203,7 @@ fn map_server(
     files: &mut Files,
 ) -> Result<World2d, Trouble> {
     let path = &world.yaml;
-    let bytes = files.read(path)?;
+    let bytes = files.read(path, "a map_server YAML file")?;
     let yaml = formats::text(&bytes).and_then(map_yaml::read).map_err(at(path))?;
     let told = yaml.warnings.iter().map(|warning| format!("{}: {warning}", path.display()));
     files.warnings.extend(told);
@@ -266,7 +266,7 @@ fn moving_ai_map(
     files: &mut Files,
 ) -> Result<World2d, Trouble> {
     let path = &world.file;
-    let bytes = files.read(path)?;
+    let bytes = files.read(path, "a MovingAI .map file")?;
     let map = formats::text(&bytes).and_then(moving_ai::read).map_err(at(path))?;
     let cells = cells_of_tiles(map.columns, map.rows, &map.blocked(), world.cell_m)?;
     Ok(world_of_cells(name_of(path), cells, start)?)
