@@ -20,6 +20,9 @@ pub struct RapidParams {
     pub visits_in_vain: u32,
     /// Scans at one place before the robot moves on, whatever it sees.
     pub turns_at_a_place: u32,
+    /// Whether the robot looks into every direction that may show something before it moves, since
+    /// turning costs no distance. The paper's policy does not.
+    pub look_first: bool,
     /// Whether the robot jumps along the graph and scans only at the end of a way; the distance is
     /// charged in full ([Zie18] 3.1).
     pub teleport: bool,
@@ -36,6 +39,7 @@ impl Default for RapidParams {
             give_up_radius_m: 0.5,
             visits_in_vain: 2,
             turns_at_a_place: 6,
+            look_first: false,
             teleport: false,
         }
     }
@@ -46,13 +50,15 @@ impl Default for RapidParams {
 pub enum Policy {
     /// The policy of the paper: least change of heading, else the nearest vertex with frontier.
     Rapid(RapidParams),
+    /// Our own: looks around before it moves, then goes where it is nearest.
+    Survey(RapidParams),
 }
 
 impl Policy {
     /// The parameters that every policy shares.
     pub fn rapid(&self) -> &RapidParams {
         match self {
-            Policy::Rapid(params) => params,
+            Policy::Rapid(params) | Policy::Survey(params) => params,
         }
     }
 }

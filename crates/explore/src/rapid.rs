@@ -71,6 +71,9 @@ struct Motion {
 impl Explorer {
     pub(crate) fn act_rapid(&mut self, robot: &mut dyn Robot, probe: &mut dyn ExploreProbe) {
         let params = self.params.policy.rapid().clone();
+        if params.look_first && self.look_first(robot, &params, probe) {
+            return;
+        }
         if self.follow_way(robot, &params, probe) || self.go_behind(robot, &params, probe) {
             return;
         }
@@ -93,6 +96,31 @@ impl Explorer {
         if !self.look_around(robot, &params, probe) {
             self.deliberate(robot, &params, probe);
         }
+    }
+
+    /// Turns to a frontier that turning can settle, if there is one.
+    fn look_first(
+        &mut self,
+        robot: &mut dyn Robot,
+        params: &RapidParams,
+        probe: &mut dyn ExploreProbe,
+    ) -> bool {
+        if self.rapid.turns_here >= params.turns_at_a_place {
+            return false;
+        }
+        let mut candidates = std::mem::take(&mut self.candidates);
+        self.maps[0].in_view(&self.standing, &mut candidates);
+        candidates.retain(|candidate| candidate.turn_only);
+        let motion = self.choose(&candidates, params, probe);
+        self.candidates = candidates;
+        let Some(motion) = motion else { return self.look_around(robot, params, probe) };
+        if motion.heading_rad.abs() <= params.turn_tolerance_rad {
+            return false;
+        }
+        self.rapid.turns_here += 1;
+        self.turn(robot, motion.heading_rad, probe);
+        self.scan(robot, probe);
+        true
     }
 
     /// Before the robot leaves: turns to what other places have left open around here.
@@ -396,6 +424,16 @@ impl Explorer {
             self.finish(Ending::Complete, probe);
             return;
         };
+        self.take_route(robot, route, params, probe);
+    }
+
+    fn take_route(
+        &mut self,
+        robot: &mut dyn Robot,
+        route: Route,
+        params: &RapidParams,
+        probe: &mut dyn ExploreProbe,
+    ) {
         probe.emit(PlannerEvent::RoutePlanned {
             standing: self.standing,
             route: &route,

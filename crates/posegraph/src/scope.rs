@@ -95,11 +95,7 @@ impl Scope {
 
 /// The shortest of the links from one vertex to its neighbour; the first of equals.
 fn shortest_link(skeleton: &Skeleton, from: VertexId, to: VertexId) -> Option<&Link> {
-    skeleton
-        .links(from)
-        .iter()
-        .filter(|link| link.to == to)
-        .min_by(|a, b| a.length_m.total_cmp(&b.length_m))
+    skeleton.links(from).iter().filter(|link| link.to == to).min_by(|a, b| Link::by_length(a, b))
 }
 
 /// Memory that placements reuse, so that a step allocates nothing once it is warm.
@@ -169,7 +165,7 @@ impl ScopeScratch {
         nearest.ok()?.goal.map(|goal| goal.cost)
     }
 
-    /// The shortest way from `root` to the nearest vertex that satisfies `is_goal`: the vertices
+    /// The shortest way of at most `limit_m` from `root` to a vertex that satisfies `is_goal`: the vertices
     /// after the root, in driving order, each with the length of the link that leads to it.
     ///
     /// `Some` of an empty way means that the root itself is the goal.
@@ -177,6 +173,7 @@ impl ScopeScratch {
         &mut self,
         skeleton: &Skeleton,
         root: VertexId,
+        limit_m: f64,
         is_goal: impl FnMut(VertexId) -> bool,
     ) -> Option<Vec<(VertexId, f64)>> {
         let found =

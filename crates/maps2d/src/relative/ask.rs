@@ -79,9 +79,11 @@ impl RelativeMap {
             return None;
         }
         let volumes = &self.volumes;
-        let way = self.scratch.way_to_nearest(&self.skeleton, standing.vertex, |vertex| {
-            volumes.get(vertex).and_then(Option::as_deref).is_some_and(VolumeState::counts)
-        })?;
+        let far_m = f64::INFINITY;
+        let way =
+            self.scratch.way_to_nearest(&self.skeleton, standing.vertex, far_m, |vertex| {
+                volumes.get(vertex).and_then(Option::as_deref).is_some_and(VolumeState::counts)
+            })?;
         Some(Route::Repeat(way))
     }
 

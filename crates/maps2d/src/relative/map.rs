@@ -17,10 +17,14 @@ pub struct RelativeMap {
     pub(super) params: RelativeParams,
     pub(super) volumes: IdVec<VertexId, Option<Box<VolumeState>>>,
     pub(super) skeleton: Skeleton,
+    /// The same graph with nothing retired: for asking retired volumes.
+    pub(super) full: Skeleton,
     pub(super) book: PathBook,
     /// The scope taken last; valid while its root and the skeleton are what they were.
     pub(super) scope: Scope,
     pub(super) scope_is_fresh: bool,
+    /// Whether the scope at hand was taken from the full graph.
+    pub(super) scope_is_full: bool,
     pub(super) scratch: ScopeScratch,
     pub(super) totals: Totals,
     /// How many scans were taken.
@@ -62,9 +66,11 @@ impl RelativeMap {
             params,
             volumes: IdVec::new(),
             skeleton: Skeleton::new(2.0 * params.consolidation_radius_m),
+            full: Skeleton::new(2.0 * params.consolidation_radius_m),
             book: PathBook::default(),
             scope: Scope::default(),
             scope_is_fresh: false,
+            scope_is_full: false,
             scratch: ScopeScratch::default(),
             totals: Totals::default(),
             scans: 0,
@@ -90,7 +96,7 @@ impl RelativeMap {
 
     /// Number of volumes that take part in comparisons.
     pub fn active_count(&self) -> usize {
-        self.volumes().count() - self.skeleton.retired_count()
+        self.volumes().filter(|(_, state)| !state.retired).count()
     }
 
     /// The scope taken last ([ISRR19] 4.3).
@@ -106,6 +112,11 @@ impl RelativeMap {
     /// The paths that closings relied on.
     pub fn book(&self) -> &PathBook {
         &self.book
+    }
+
+    /// The graph that the paths of the scope at hand walk.
+    pub(super) fn walked(&self) -> &Skeleton {
+        if self.scope_is_full { &self.full } else { &self.skeleton }
     }
 
     /// Gathers the scope of `root` unless that is the one at hand.
@@ -195,5 +206,6 @@ impl ExplorationMap for RelativeMap {
             + self.volumes.len() * size_of::<usize>()
             + self.book.heap_bytes()
             + self.skeleton.heap_bytes()
+            + self.full.heap_bytes()
     }
 }
