@@ -50,10 +50,24 @@ pub(super) struct Global {
 #[derive(Debug, Subcommand)]
 pub(super) enum Command {
     /// Run one experiment and leave a folder with its recording and results
+    #[command(
+        long_about = "Run one experiment and leave a folder with its recording and results.\n\n\
+            The folder holds run.rrd (the recording), run.toml (the resolved config), metrics.json, \
+            steps.parquet, timing.json and provenance.toml. The same config, seed and program give the \
+            same metrics.json and steps.parquet, byte for byte. A run that is killed leaves a recording \
+            that opens up to its last flush.",
+        after_help = "Examples:\n  \
+            driftlab run configs/paper/maze.toml\n  \
+            driftlab run configs/paper/maze.toml --set seed=7 --set odometry.scale=0.5 --out /tmp/try\n  \
+            driftlab run configs/maps/building.toml --world floor.yaml --json"
+    )]
     Run(RunArgs),
     /// Tell what a recording holds: entities, timelines, rows, events, final metrics
     Inspect(InspectArgs),
     /// Open a recording in the Rerun viewer
+    #[command(long_about = "Open a recording in the Rerun viewer.\n\n\
+        Looks for the `rerun` program on the PATH. Where there is none: `pip install \
+        rerun-sdk==0.36.3` brings it.")]
     View(ViewArgs),
     /// Show a resolved config, the defaults, or the JSON schema
     Config(ConfigArgs),
@@ -82,17 +96,6 @@ pub(super) struct ConfigInput {
 }
 
 #[derive(Debug, Args)]
-#[command(
-    long_about = "Run one experiment and leave a folder with its recording and results.\n\n\
-        The folder holds run.rrd (the recording), run.toml (the resolved config), metrics.json, \
-        steps.parquet, timing.json and provenance.toml. The same config, seed and program give the \
-        same metrics.json and steps.parquet, byte for byte. A run that is killed leaves a recording \
-        that opens up to its last flush.",
-    after_help = "Examples:\n  \
-        driftlab run configs/paper/maze.toml\n  \
-        driftlab run configs/paper/maze.toml --set seed=7 --set odometry.scale=0.5 --out /tmp/try\n  \
-        driftlab run configs/maps/building.toml --world floor.yaml --json"
-)]
 pub(super) struct RunArgs {
     #[command(flatten)]
     pub(super) input: ConfigInput,
@@ -117,9 +120,6 @@ pub(super) struct InspectArgs {
 }
 
 #[derive(Debug, Args)]
-#[command(long_about = "Open a recording in the Rerun viewer.\n\n\
-    Looks for the `rerun` program on the PATH. Where there is none: `pip install \
-    rerun-sdk==0.36.3` brings it.")]
 pub(super) struct ViewArgs {
     /// The recording, an `.rrd` file; or the folder of a run
     pub(super) file: PathBuf,

@@ -7,10 +7,10 @@ use serde::{Deserialize, Serialize};
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Maps {
-    /// Local polygons on a pose graph, consolidated relative to each other ([ISRR19] 4).
+    /// Local polygons on a pose graph, consolidated relative to each other (\[ISRR19\] 4).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub relative: Option<RelativeMap>,
-    /// An occupancy grid in the frame of the odometry ([ISRR19] 6.2).
+    /// An occupancy grid in the frame of the odometry (\[ISRR19\] 6.2).
     #[serde(skip_serializing_if = "Option::is_none")]
     pub grid: Option<GridMap>,
 }
@@ -27,10 +27,10 @@ impl Maps {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct RelativeMap {
-    /// Polygons within this distance along the graph are compared, metres ([ISRR19] 4.3).
+    /// Polygons within this distance along the graph are compared, metres (\[ISRR19\] 4.3).
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub consolidation_radius_m: f64,
-    /// Two neighbouring samples are one wall if their ranges differ by less; metres ([ISRR19] 4.1).
+    /// Two neighbouring samples are one wall if their ranges differ by less; metres (\[ISRR19\] 4.1).
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub occlusion_gap_m: f64,
     /// Polygons are shrunk by this much before they free another's frontier, metres: else rounding
@@ -52,9 +52,9 @@ pub struct RelativeMap {
     pub retire: bool,
     /// When two neighbouring hits belong to different things.
     pub occlusion: Occlusion,
-    /// Put a frontier vertex into the middle of each edge that spans an occlusion ([Zie18] 2.4).
+    /// Put a frontier vertex into the middle of each edge that spans an occlusion (\[Zie18\] 2.4).
     pub insert_occlusion_vertex: bool,
-    /// Drop hits closer than this to the hit kept before, metres; 0 keeps all ([Zie18] 2.4).
+    /// Drop hits closer than this to the hit kept before, metres; 0 keeps all (\[Zie18\] 2.4).
     #[schemars(range(min = 0.0))]
     pub thin_m: f64,
 }
@@ -63,9 +63,9 @@ pub struct RelativeMap {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum Occlusion {
-    /// Their ranges differ by the gap or more ([ISRR19] 4.1).
+    /// Their ranges differ by the gap or more (\[ISRR19\] 4.1).
     Range,
-    /// Their forward coordinates differ by more than the gap, and only in one sense ([Zie18] 2.4).
+    /// Their forward coordinates differ by more than the gap, and only in one sense (\[Zie18\] 2.4).
     ForwardSigned,
 }
 

@@ -9,7 +9,7 @@ use serde::{Deserialize, Serialize};
 #[serde(rename_all = "snake_case")]
 pub enum Planner {
     /// The paper's: the frontier in view that changes the heading least, else the nearest vertex
-    /// with frontier left ([ISRR19] 5, [Zie18] 2.9).
+    /// with frontier left (\[ISRR19\] 5, \[Zie18\] 2.9).
     Rapid(RapidPlanner),
 }
 
@@ -33,7 +33,7 @@ pub struct RapidPlanner {
     #[schemars(range(min = 0.0, max = 180.0))]
     pub turn_tolerance_deg: f64,
     /// How far before a frontier that its own place cannot reach the robot tries to stand, metres,
-    /// in this order ([Zie18] 2.9.3, the "normal point").
+    /// in this order (\[Zie18\] 2.9.3, the "normal point").
     #[schemars(inner(range(min = 0.0)))]
     pub normal_point_m: Vec<f64>,
     /// How near a goal counts as reached, metres.
@@ -50,7 +50,7 @@ pub struct RapidPlanner {
     #[schemars(range(min = 1))]
     pub turns_at_a_place: u32,
     /// The robot jumps along the graph and scans only at the end of a way; the distance is charged
-    /// in full ([Zie18] 3.1).
+    /// in full (\[Zie18\] 3.1).
     pub teleport: bool,
 }
 

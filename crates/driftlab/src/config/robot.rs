@@ -28,7 +28,7 @@ impl Default for Sensor {
 }
 
 /// The noise of the wheels; it acts on the true pose and grows with the square root of the
-/// distance ([ISRR19] 6.1).
+/// distance (\[ISRR19\] 6.1).
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Odometry {
@@ -104,7 +104,7 @@ impl Default for Places {
 
 /// The body, and how well it repeats a taught leg.
 ///
-/// A taught leg is not driven through but jumped, and its length is charged ([Zie18] 3.1).
+/// A taught leg is not driven through but jumped, and its length is charged (\[Zie18\] 3.1).
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
 pub struct Robot {
@@ -117,7 +117,7 @@ pub struct Robot {
     /// Standard deviation of the heading after a repeated leg, degrees; 0 is exact.
     #[schemars(range(min = 0.0))]
     pub repeat_sigma_deg: f64,
-    /// Localisation puts the robot onto a known pose nearer than this, metres ([Zie18] 3.1); 0 is
+    /// Localisation puts the robot onto a known pose nearer than this, metres (\[Zie18\] 3.1); 0 is
     /// never.
     #[schemars(range(min = 0.0))]
     pub snap_radius_m: f64,

@@ -9,7 +9,29 @@ use super::Config;
 /// The JSON Schema of a config, draft 2020-12: keys, ranges, and what each means.
 pub fn schema() -> &'static Value {
     static SCHEMA: OnceLock<Value> = OnceLock::new();
-    SCHEMA.get_or_init(|| schemars::schema_for!(Config).to_value())
+    SCHEMA.get_or_init(|| {
+        let mut schema = schemars::schema_for!(Config).to_value();
+        unescape(&mut schema);
+        schema
+    })
+}
+
+/// Takes the backslashes away with which comments keep rustdoc from making links.
+fn unescape(node: &mut Value) {
+    match node {
+        Value::Object(map) => {
+            for (key, child) in map {
+                match child {
+                    Value::String(text) if key == "description" => {
+                        *text = text.replace("\\[", "[").replace("\\]", "]");
+                    }
+                    _ => unescape(child),
+                }
+            }
+        }
+        Value::Array(items) => items.iter_mut().for_each(unescape),
+        _ => {}
+    }
 }
 
 /// The schema behind references and optional values.

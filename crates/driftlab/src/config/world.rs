@@ -12,11 +12,11 @@ use super::{CavesWorld, CorridorWorld, MazeWorld, PillarsWorld, RoomsWorld};
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum World {
-    /// The three maps of [ISRR19] fig. 5, on squared paper with cells of 1 m.
+    /// The three maps of \[ISRR19\] fig. 5, on squared paper with cells of 1 m.
     Paper(PaperWorld),
-    /// The three polygon maps of [Zie18].
+    /// The three polygon maps of \[Zie18\].
     Thesis(ThesisWorld),
-    /// A corridor that closes on itself around a block ([Zie18] fig. 2.15): it has no end for a
+    /// A corridor that closes on itself around a block (\[Zie18\] fig. 2.15): it has no end for a
     /// robot that does not recognise places.
     Corridor(CorridorWorld),
     /// A map_server YAML file with its PGM or PNG image.
@@ -91,7 +91,7 @@ impl Default for PaperWorld {
     }
 }
 
-/// The maps of [ISRR19].
+/// The maps of \[ISRR19\].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum PaperMap {
@@ -117,7 +117,7 @@ impl Default for ThesisWorld {
     }
 }
 
-/// The maps of [Zie18].
+/// The maps of \[Zie18\].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
 pub enum ThesisMap {
