@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod contract;
 mod error;
 mod graph;
 mod scope;

@@ -1,5 +1,6 @@
 //! The part of the graph that placement walks: short, with spent vertices contracted away.
 
+use std::cmp::Ordering;
 use std::sync::Arc;
 
 use pose::Se2;
@@ -25,8 +26,16 @@ impl Via {
         }
     }
 
-    fn join(&self, next: &Via) -> Via {
-        Via::Chain(self.edges().iter().chain(next.edges()).copied().collect())
+    pub(crate) fn join(&self, next: &Via) -> Via {
+        let edges: Arc<[EdgeId]> = self.edges().iter().chain(next.edges()).copied().collect();
+        if let [edge] = *edges { Via::Edge(edge) } else { Via::Chain(edges) }
+    }
+
+    pub(crate) fn reversed(&self) -> Via {
+        match self {
+            Via::Edge(edge) => Via::Edge(*edge),
+            Via::Chain(edges) => Via::Chain(edges.iter().rev().copied().collect()),
+        }
     }
 }
 
@@ -45,37 +54,67 @@ pub struct Link {
     pub via: Via,
 }
 
-/// Where a retired vertex hangs.
-#[derive(Clone, Debug)]
-struct Anchor {
-    host: VertexId,
-    host_from_vertex: Se2,
-    length_m: f64,
-    odometry_m: f64,
-    via: Via,
+impl Link {
+    /// The way of no length from a vertex to itself.
+    pub(crate) fn nowhere(at: VertexId) -> Self {
+        Self {
+            to: at,
+            here_from_there: Se2::identity(),
+            length_m: 0.0,
+            odometry_m: 0.0,
+            via: Via::Chain(Arc::new([])),
+        }
+    }
+
+    /// This link and then another one from where it leads.
+    pub(crate) fn then(&self, next: &Link) -> Self {
+        Self {
+            to: next.to,
+            here_from_there: self.here_from_there * next.here_from_there,
+            length_m: self.length_m + next.length_m,
+            odometry_m: self.odometry_m + next.odometry_m,
+            via: self.via.join(&next.via),
+        }
+    }
+
+    /// The same way back to `from`, which holds this link.
+    pub(crate) fn back_to(&self, from: VertexId) -> Self {
+        Self {
+            to: from,
+            here_from_there: self.here_from_there.inverse(),
+            length_m: self.length_m,
+            odometry_m: self.odometry_m,
+            via: self.via.reversed(),
+        }
+    }
+
+    /// The shorter first; of equally long ones that of the earlier edges.
+    pub(crate) fn by_length(a: &Link, b: &Link) -> Ordering {
+        a.length_m.total_cmp(&b.length_m).then_with(|| a.via.edges().cmp(b.via.edges()))
+    }
 }
 
 #[derive(Clone, Debug, Default)]
-struct Node {
-    links: Vec<Link>,
-    anchor: Option<Anchor>,
+pub(crate) struct Node {
+    pub links: Vec<Link>,
+    /// The links that the vertex had when it was retired, shortest first; none while it is not.
+    /// They lead to vertices that were not retired then.
+    pub spare: Vec<Link>,
 }
 
 /// A pose graph reduced to what relative placement needs.
 ///
 /// Vertices can be [retired](Self::retire): they are contracted, and every way through them that is
 /// the shortest and no longer than the horizon lives on as one link. Hence shortest-path distances
-/// and placements up to the horizon between the vertices that remain are what they were.
-/// Farther ways may become longer, but nothing that was connected comes apart.
+/// and placements up to the horizon between the vertices that remain are what they were, whatever is
+/// retired, [restored](Self::restore) or [added](Self::add_edge) in any order. Farther ways may
+/// become longer, but nothing that was connected comes apart.
 #[derive(Clone, Debug)]
 pub struct Skeleton {
-    nodes: IdVec<VertexId, Node>,
-    horizon_m: f64,
-    retired: usize,
+    pub(crate) nodes: IdVec<VertexId, Node>,
+    pub(crate) horizon_m: f64,
+    pub(crate) retired: usize,
 }
-
-/// Ways longer than the horizon are dropped where another way is at most this many times as long.
-const DETOUR: f64 = 1.5;
 
 impl Skeleton {
     /// An empty skeleton that keeps shortest ways exact up to `horizon_m` metres.
@@ -107,7 +146,7 @@ impl Skeleton {
 
     /// Whether the vertex is retired.
     pub fn is_retired(&self, vertex: VertexId) -> bool {
-        self.nodes[vertex].anchor.is_some()
+        !self.nodes[vertex].spare.is_empty()
     }
 
     /// The links at a vertex; none at a retired one.
@@ -121,48 +160,40 @@ impl Skeleton {
     pub fn resolve(&self, vertex: VertexId) -> (VertexId, Se2) {
         let mut at = vertex;
         let mut at_from_vertex = Se2::identity();
-        while let Some(anchor) = &self.nodes[at].anchor {
-            at_from_vertex = anchor.host_from_vertex * at_from_vertex;
-            at = anchor.host;
+        // Links of retired vertices lead to vertices that were retired later, or not at all.
+        while let Some(nearest) = self.nodes[at].spare.first() {
+            at_from_vertex = nearest.here_from_there.inverse() * at_from_vertex;
+            at = nearest.to;
         }
         (at, at_from_vertex)
     }
 
-    /// Adds a measured edge; ends that are retired are replaced by the vertices that stand for
-    /// them. Returns the two ends and the length of the link, or `None` where both ends hang on
-    /// the same vertex and the edge says nothing new.
-    pub fn add_edge(&mut self, id: EdgeId, edge: &Edge) -> Option<(VertexId, VertexId, f64)> {
-        let mut via = Via::Edge(id);
-        let mut length_m = edge.length_m;
+    /// Adds a measured edge. Ends that are retired stay so: the ways over the edge that are the
+    /// shortest, and no longer than the horizon, become links between other vertices.
+    ///
+    /// Cost: constant for ends that are not retired; else that of [`restore`](Self::restore) and
+    /// [`retire`](Self::retire).
+    pub fn add_edge(&mut self, id: EdgeId, edge: &Edge, scratch: &mut ScopeScratch) {
+        let hidden = [edge.a, edge.b].map(|end| self.restore(end, scratch));
         let is_odometry = edge.kind == EdgeKind::Odometry;
-        let mut odometry_m = if is_odometry { edge.length_m } else { 0.0 };
-        let mut a_from_b = edge.a_from_b;
-        let (mut a, mut b) = (edge.a, edge.b);
-        while let Some(anchor) = self.nodes[a].anchor.clone() {
-            via = anchor.via.join(&via);
-            length_m += anchor.length_m;
-            odometry_m += anchor.odometry_m;
-            a_from_b = anchor.host_from_vertex * a_from_b;
-            a = anchor.host;
+        let link = Link {
+            to: edge.b,
+            here_from_there: edge.a_from_b,
+            length_m: edge.length_m,
+            odometry_m: if is_odometry { edge.length_m } else { 0.0 },
+            via: Via::Edge(id),
+        };
+        self.connect(edge.a, link);
+        for (end, hidden) in [edge.a, edge.b].into_iter().zip(hidden) {
+            if hidden {
+                self.retire(end, scratch);
+            }
         }
-        while let Some(anchor) = self.nodes[b].anchor.clone() {
-            let back: Arc<[EdgeId]> = anchor.via.edges().iter().rev().copied().collect();
-            via = via.join(&Via::Chain(back));
-            length_m += anchor.length_m;
-            odometry_m += anchor.odometry_m;
-            a_from_b = a_from_b * anchor.host_from_vertex.inverse();
-            b = anchor.host;
-        }
-        if a == b {
-            return None;
-        }
-        self.connect(a, b, a_from_b, (length_m, odometry_m), via);
-        Some((a, b, length_m))
     }
 
     /// Memory held on the heap, bytes; chains that two links share are counted once.
     pub fn heap_bytes(&self) -> usize {
-        let links = self.nodes.iter().flat_map(|node| &node.links);
+        let links = self.nodes.iter().flat_map(|node| node.links.iter().chain(&node.spare));
         let chains: usize = links
             .map(|link| match &link.via {
                 Via::Edge(_) => 0,
@@ -172,123 +203,18 @@ impl Skeleton {
         let nodes: usize = self
             .nodes
             .iter()
-            .map(|node| size_of::<Node>() + node.links.capacity() * size_of::<Link>())
+            .map(|node| {
+                let links = node.links.capacity() + node.spare.capacity();
+                size_of::<Node>() + links * size_of::<Link>()
+            })
             .sum();
         nodes + chains
     }
 
-    fn connect(
-        &mut self,
-        a: VertexId,
-        b: VertexId,
-        a_from_b: Se2,
-        (length_m, odometry_m): (f64, f64),
-        via: Via,
-    ) {
-        let back = Via::Chain(via.edges().iter().rev().copied().collect());
-        let back = if let Via::Edge(edge) = via { Via::Edge(edge) } else { back };
-        self.nodes[a].links.push(Link {
-            to: b,
-            here_from_there: a_from_b,
-            length_m,
-            odometry_m,
-            via,
-        });
-        self.nodes[b].links.push(Link {
-            to: a,
-            here_from_there: a_from_b.inverse(),
-            length_m,
-            odometry_m,
-            via: back,
-        });
-    }
-
-    /// Contracts a vertex: afterwards it has no links and hangs on its nearest neighbour.
-    ///
-    /// Every pair of its neighbours whose shortest way led through it, and is no longer than the
-    /// horizon, gets that way as a link. Returns whether it was done: a vertex without neighbours
-    /// and a vertex that is retired already are left alone.
-    ///
-    /// Cost: a bounded search per neighbour.
-    pub fn retire(&mut self, vertex: VertexId, scratch: &mut ScopeScratch) -> bool {
-        if self.is_retired(vertex) {
-            return false;
-        }
-        let mut links = std::mem::take(&mut self.nodes[vertex].links);
-        // The shorter of parallel links is the only one that a shortest way can use.
-        links.sort_by(|a, b| a.length_m.total_cmp(&b.length_m).then(a.to.cmp(&b.to)));
-        let mut seen: Vec<VertexId> = Vec::with_capacity(links.len());
-        links.retain(|link| {
-            let first = !seen.contains(&link.to);
-            seen.push(link.to);
-            first
-        });
-        let Some(nearest) = links.first() else { return false };
-        self.nodes[vertex].anchor = Some(Anchor {
-            host: nearest.to,
-            host_from_vertex: nearest.here_from_there.inverse(),
-            length_m: nearest.length_m,
-            odometry_m: nearest.odometry_m,
-            via: Via::Chain(nearest.via.edges().iter().rev().copied().collect()),
-        });
-        self.retired += 1;
-        for link in &links {
-            self.nodes[link.to].links.retain(|back| back.to != vertex);
-        }
-        // Shorter composed ways first, so that they can witness against longer ones.
-        let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
-        for i in 0..links.len() {
-            for j in i + 1..links.len() {
-                pairs.push((links[i].length_m + links[j].length_m, i, j));
-            }
-        }
-        pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
-        for (length_m, i, j) in pairs {
-            let (x, y) = (&links[i], &links[j]);
-            let bound_m = if length_m <= self.horizon_m { length_m } else { DETOUR * length_m };
-            if scratch.distance_within(self, x.to, y.to, bound_m).is_some() {
-                continue;
-            }
-            let x_from_y = x.here_from_there.inverse() * y.here_from_there;
-            let back: Arc<[EdgeId]> = x.via.edges().iter().rev().copied().collect();
-            let via = Via::Chain(back).join(&y.via);
-            let lengths_m = (length_m, x.odometry_m + y.odometry_m);
-            self.replace(x.to, y.to, x_from_y, lengths_m, via);
-        }
-        true
-    }
-
-    /// Takes a retired vertex in again: it hangs on the vertex that stood for it by one link.
-    ///
-    /// Ways between other vertices stay what they are. Returns whether the vertex was retired.
-    pub fn restore(&mut self, vertex: VertexId) -> bool {
-        let Some(mut anchor) = self.nodes[vertex].anchor.take() else { return false };
-        while let Some(next) = self.nodes[anchor.host].anchor.clone() {
-            anchor = Anchor {
-                host: next.host,
-                host_from_vertex: next.host_from_vertex * anchor.host_from_vertex,
-                length_m: next.length_m + anchor.length_m,
-                odometry_m: next.odometry_m + anchor.odometry_m,
-                via: next.via.join(&anchor.via),
-            };
-        }
-        self.retired -= 1;
-        let Anchor { host, host_from_vertex, length_m, odometry_m, via } = anchor;
-        self.connect(host, vertex, host_from_vertex, (length_m, odometry_m), via);
-        true
-    }
-
-    /// Adds a link and drops longer ones between the same two vertices.
-    fn replace(
-        &mut self,
-        a: VertexId,
-        b: VertexId,
-        a_from_b: Se2,
-        lengths_m: (f64, f64),
-        via: Via,
-    ) {
-        self.nodes[a].links.retain(|link| link.to != b);
-        self.nodes[b].links.retain(|link| link.to != a);
-        self.connect(a, b, a_from_b, lengths_m, via);
+    /// Adds a link at both its ends.
+    pub(crate) fn connect(&mut self, from: VertexId, link: Link) {
+        let (to, back) = (link.to, link.back_to(from));
+        self.nodes[from].links.push(link);
+        self.nodes[to].links.push(back);
     }
 }

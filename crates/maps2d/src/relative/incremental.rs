@@ -1,6 +1,6 @@
 //! Which pairs have to be compared after a change, and no others ([ISRR19] 4.3).
 
-use posegraph::{PoseGraph, Scope};
+use posegraph::{PoseGraph, Scope, Skeleton};
 use probe::{EdgeId, VertexId};
 
 use super::{RelativeMap, VolumeState};
@@ -28,12 +28,13 @@ impl RelativeMap {
         }
         self.work.pairs = pairs;
         self.consolidate(probe);
+        self.ask_retired_about(root, probe);
     }
 
     /// Edges were added at one vertex: only pairs whose shortest path they changed are compared.
     ///
     /// Seen from that vertex, the root, these are pairs of which at least one came nearer, and whose
-    /// ways from the root part at the root itself: where two ways share their first link, the path
+    /// ways from the root part at the root itself: where two ways share their first edge, the path
     /// between the two does not pass the root, and no new edge is on it.
     pub(super) fn take_edges(
         &mut self,
@@ -46,54 +47,45 @@ impl RelativeMap {
         let shared =
             |v: VertexId| edges.iter().all(|&e| [graph.edge(e).a, graph.edge(e).b].contains(&v));
         let newer = first.a.max(first.b);
-        let vertex = if shared(newer) { newer } else { first.a.min(first.b) };
+        let root = if shared(newer) { newer } else { first.a.min(first.b) };
         for &id in edges {
             let edge = graph.edge(id);
             self.book.learn(id, edge.kind);
             self.cover(edge.a.max(edge.b));
         }
-        let root = self.skeleton.resolve(vertex).0;
+        let hidden = self.skeleton.restore(root, &mut self.scratch);
+        self.scope_is_fresh &= !hidden;
         self.take_scope(root, &mut probe::Off);
         let before = std::mem::take(&mut self.scope);
+        let leaf = before.placed().len() == 1 && edges.len() == 1;
+        let before_in_full = self.full_scope_if(root, !leaf);
         for &id in edges {
-            self.skeleton.add_edge(id, graph.edge(id));
+            self.skeleton.add_edge(id, graph.edge(id), &mut self.scratch);
+            self.full.add_edge(id, graph.edge(id), &mut self.scratch);
         }
         self.scope_is_fresh = false;
         self.take_scope(root, probe);
         self.compare_across(&before, probe);
+        if let Some(before) = before_in_full {
+            self.ask_retired_across(root, &before, probe);
+        }
+        if hidden && self.volume(root).is_some_and(|state| state.retired) {
+            self.skeleton.retire(root, &mut self.scratch);
+            self.scope_is_fresh = false;
+        }
     }
 
     /// Compares the pairs of which at least one is not as far from the root as it was in `before`,
     /// and whose ways part at the root.
     pub(super) fn compare_across(&mut self, before: &Scope, probe: &mut dyn MapProbe) {
-        let mut old: Vec<(VertexId, f64)> =
-            before.placed().iter().map(|row| (row.vertex, row.distance_m)).collect();
-        old.sort_unstable_by_key(|row| row.0);
-        let rows = self.scope.placed();
-        // The row right after the root on the way to each row; the root is its own.
-        let mut branch: Vec<u32> = Vec::with_capacity(rows.len());
-        let (mut moved, mut active): (Vec<bool>, Vec<u32>) = (Vec::new(), Vec::new());
-        for (i, row) in rows.iter().enumerate() {
-            branch.push(match row.parent {
-                None | Some(0) => i as u32,
-                Some(parent) => branch[parent as usize],
-            });
-            let was = old.binary_search_by_key(&row.vertex, |o| o.0).ok().map(|k| old[k].1);
-            moved.push(was != Some(row.distance_m));
-            if self.is_active(i as u32) {
-                active.push(i as u32);
-            }
-        }
+        let changed = Changed::new(before, &self.scope, self.walked());
+        let rows = 0..self.scope.placed().len() as u32;
+        let active: Vec<u32> = rows.filter(|&row| self.is_active(row)).collect();
         let mut pairs = std::mem::take(&mut self.work.pairs);
         pairs.clear();
-        for &a in &active {
-            if !self.row_has_open(a) {
-                continue;
-            }
+        for &a in active.iter().filter(|&&a| self.row_has_open(a)) {
             for &b in &active {
-                let parted = branch[a as usize] != branch[b as usize];
-                let changed = moved[a as usize] || moved[b as usize];
-                if parted && changed && self.may_touch(a, b) {
+                if changed.is_path_of(a, b) && self.may_touch(a, b) {
                     pairs.push((a, b));
                 }
             }
@@ -103,7 +95,7 @@ impl RelativeMap {
     }
 
     /// Whether the open frontier of row `a` comes near the volume of row `b` at all.
-    fn may_touch(&self, a: u32, b: u32) -> bool {
+    pub(super) fn may_touch(&self, a: u32, b: u32) -> bool {
         let rows = self.scope.placed();
         let (a, b) = (&rows[a as usize], &rows[b as usize]);
         let (Some(of_a), Some(of_b)) = (self.volume(a.vertex), self.volume(b.vertex)) else {
@@ -115,7 +107,7 @@ impl RelativeMap {
         apart.coords.norm_squared() <= reach_m * reach_m
     }
 
-    fn is_active(&self, row: u32) -> bool {
+    pub(super) fn is_active(&self, row: u32) -> bool {
         let vertex = self.scope.placed()[row as usize].vertex;
         self.volumes[vertex].as_deref().is_some_and(|state| !state.retired)
     }
@@ -123,5 +115,41 @@ impl RelativeMap {
     fn row_has_open(&self, row: u32) -> bool {
         let vertex = self.scope.placed()[row as usize].vertex;
         self.volumes[vertex].as_deref().is_some_and(VolumeState::has_open)
+    }
+}
+
+/// Distances that differ by less are the same, metres: contraction adds lengths in another order.
+const SAME_M: f64 = 1e-9;
+
+/// Which paths between the rows of a scope were changed by new edges at its root.
+pub(super) struct Changed {
+    /// The first measured edge on the way to each row; none at the root.
+    first: Vec<Option<EdgeId>>,
+    moved: Vec<bool>,
+}
+
+impl Changed {
+    pub(super) fn new(before: &Scope, now: &Scope, skeleton: &Skeleton) -> Self {
+        let mut old: Vec<(VertexId, f64)> =
+            before.placed().iter().map(|row| (row.vertex, row.distance_m)).collect();
+        old.sort_unstable_by_key(|row| row.0);
+        let mut first: Vec<Option<EdgeId>> = Vec::with_capacity(now.placed().len());
+        let mut moved: Vec<bool> = Vec::with_capacity(now.placed().len());
+        for (i, row) in now.placed().iter().enumerate() {
+            first.push(match row.parent {
+                None => None,
+                Some(0) => now.path_between(skeleton, 0, i).first().copied(),
+                Some(parent) => first[parent as usize],
+            });
+            let was = old.binary_search_by_key(&row.vertex, |o| o.0).ok().map(|k| old[k].1);
+            moved.push(was.is_none_or(|was| (was - row.distance_m).abs() > SAME_M));
+        }
+        Self { first, moved }
+    }
+
+    /// Whether the path between two rows leads through the root and is new.
+    pub(super) fn is_path_of(&self, a: u32, b: u32) -> bool {
+        let (a, b) = (a as usize, b as usize);
+        a != b && self.first[a] != self.first[b] && (self.moved[a] || self.moved[b])
     }
 }

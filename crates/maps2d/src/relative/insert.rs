@@ -13,6 +13,7 @@ impl RelativeMap {
     pub(super) fn insert(&mut self, standing: &Standing, scan: &Scan, probe: &mut dyn MapProbe) {
         let vertex = standing.vertex;
         self.cover(vertex);
+        self.restore(vertex, probe);
         self.scans += 1;
         if probe::Probe::<VolumeEvent<'_>>::on(probe) {
             probe.emit(VolumeEvent::Measured {
@@ -117,6 +118,7 @@ impl RelativeMap {
             self.volumes.push(None);
         }
         self.skeleton.cover(vertex);
+        self.full.cover(vertex);
     }
 }
 

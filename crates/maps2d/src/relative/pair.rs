@@ -19,16 +19,21 @@ pub(super) struct Work {
     clipped: Vec<Interval>,
     placements: Vec<Se2>,
     newly: Vec<Interval>,
-    touched: Vec<(VertexId, VertexId)>,
+    /// Volumes whose ledgers changed, each with a volume that closed something there.
+    pub touched: Vec<(VertexId, VertexId)>,
 }
 
 impl RelativeMap {
     /// Compares the pairs in `self.work.pairs`, over the rows of the scope at hand.
     ///
     /// First everything that lies inside the other volume is closed, over all pairs; then what is
-    /// left along walls, then what could not be reached. So "free" is preferred as a reason.
+    /// left along walls, then what could not be reached. So "free" is preferred as a reason. Of the
+    /// volumes that account for a part the oldest closes it: in known space the old ones do all the
+    /// work, and the new ones can be retired.
     pub(super) fn consolidate(&mut self, probe: &mut dyn MapProbe) {
-        let pairs = std::mem::take(&mut self.work.pairs);
+        let mut pairs = std::mem::take(&mut self.work.pairs);
+        let rows = self.scope.placed();
+        pairs.sort_unstable_by_key(|&(target, source)| (rows[source as usize].vertex, target));
         self.work.touched.clear();
         for cause in [Cause::Inside, Cause::Wall, Cause::Unreachable] {
             for &(target, source) in &pairs {
@@ -52,8 +57,8 @@ impl RelativeMap {
             for &(_, by) in touched[i..end].iter().filter(|(_, by)| *by != vertex) {
                 let Some(state) = self.volumes[by].as_deref_mut() else { continue };
                 state.closed_others |= counted_less;
-                if !state.closed_in.contains(&vertex) {
-                    state.closed_in.push(vertex);
+                if let Err(at) = state.closed_in.binary_search(&vertex) {
+                    state.closed_in.insert(at, vertex);
                 }
             }
             i = end;
@@ -149,7 +154,7 @@ impl RelativeMap {
                 continue;
             }
             let reason = *closing.get_or_insert_with(|| {
-                let edges = self.scope.path_between(&self.skeleton, target, source);
+                let edges = self.scope.path_between(self.walked(), target, source);
                 Closing { cause, by, step: self.scans, path: self.book.remember(at, edges) }
             });
             self.work.newly.clear();

@@ -68,8 +68,7 @@ impl RelativeMap {
         let Some(state) = self.volume(vertex) else { return Vec::new() };
         let mut scope = Scope::default();
         let radius_m = self.params.consolidation_radius_m;
-        let root = self.skeleton.resolve(vertex).0;
-        ScopeScratch::default().place(&self.skeleton, root, 2.0 * radius_m, &mut scope);
+        ScopeScratch::default().place(&self.full, vertex, 2.0 * radius_m, &mut scope);
         let mut pieces = Vec::new();
         for (i, (edge, ledger)) in state.volume.frontier.iter().zip(&state.ledgers).enumerate() {
             let mut of_edge: Vec<FrontierPiece> = ledger

@@ -2,47 +2,149 @@
 //! known space costs no more each time.
 //!
 //! A volume is spent when, as the robot leaves it, none of its own frontier counts any more and it
-//! never closed frontier of another volume that counted. Then the frontier that counts is, at that
-//! moment, what it would be had the scan never been taken. Nor can the volume be missed later:
-//! all of its boundary is wall or lies in other volumes, and no counting frontier of theirs lies
-//! inside it (it would have closed it), so up to slivers the others cover it whole, and whatever it
-//! could close later they close too. Its vertex is contracted, which keeps every shortest path up
-//! to the horizon (`posegraph::Skeleton::retire`).
+//! never closed frontier of another volume that counted. It is retired: it takes no part in
+//! comparisons, and its vertex is contracted, which keeps every shortest path up to the horizon
+//! (`posegraph::Skeleton::retire`). What counts as frontier stays what it would be if nothing were
+//! ever retired:
+//!
+//! - *Its own frontier.* None of it counts, and none will: consolidation only closes, and chains
+//!   that lose parts get no longer. Where a part opens again, it is taken in again.
+//! - *Frontier of others that it could close.* As long as a volume has frontier that counts after
+//!   all active volumes were asked, the retired ones in scope are asked too
+//!   ([`RelativeMap::ask_retired_about`]). A volume without frontier that counts has none after
+//!   more was closed, either: there it makes no difference that nobody asked them.
+//! - *Paths.* Volumes are placed along the same paths as before; retired ones are placed over the
+//!   full graph.
+//!
+//! A retired volume that does close what counted is taken in again. So in known space, where no
+//! frontier is left, nobody asks, and the cost stops growing.
 
+use posegraph::Scope;
 use probe::VertexId;
 
-use super::{ConsolidationEvent, RelativeMap};
+use super::incremental::Changed;
+use super::{ConsolidationEvent, RelativeMap, VolumeState};
 use crate::MapProbe;
 
 impl RelativeMap {
     pub(super) fn retire_if_spent(&mut self, vertex: VertexId, probe: &mut dyn MapProbe) {
-        if !self.params.retire {
+        if !self.params.retire || !self.is_spent(vertex) {
             return;
         }
-        let Some(state) = self.volumes[vertex].as_deref_mut() else { return };
-        let spent =
-            !state.retired && !state.counts() && !state.closed_others && state.given_up.is_empty();
-        if !spent || !self.skeleton.retire(vertex, &mut self.scratch) {
+        if !self.skeleton.retire(vertex, &mut self.scratch) {
             return;
         }
-        state.retired = true;
+        if let Some(state) = self.volumes[vertex].as_deref_mut() {
+            state.retired = true;
+        }
         self.scope_is_fresh = false;
         if probe::Probe::<ConsolidationEvent<'_>>::on(probe) {
             probe.emit(ConsolidationEvent::Retired { volume: vertex });
         }
     }
 
-    /// A retired volume of which frontier was opened again takes part again.
-    pub(super) fn restore_if_it_counts(&mut self, vertex: VertexId, probe: &mut dyn MapProbe) {
+    pub(super) fn is_spent(&self, vertex: VertexId) -> bool {
+        self.volume(vertex).is_some_and(|state| {
+            !state.retired && !state.counts() && !state.closed_others && state.given_up.is_empty()
+        })
+    }
+
+    /// A retired volume takes part again.
+    pub(super) fn restore(&mut self, vertex: VertexId, probe: &mut dyn MapProbe) {
         let Some(state) = self.volumes[vertex].as_deref_mut() else { return };
-        if !state.retired || !state.counts() {
+        if !state.retired {
             return;
         }
         state.retired = false;
-        self.skeleton.restore(vertex);
+        self.skeleton.restore(vertex, &mut self.scratch);
         self.scope_is_fresh = false;
         if probe::Probe::<ConsolidationEvent<'_>>::on(probe) {
             probe.emit(ConsolidationEvent::Restored { volume: vertex });
         }
+    }
+
+    /// A retired volume of which frontier that counts was opened again takes part again.
+    pub(super) fn restore_if_it_counts(&mut self, vertex: VertexId, probe: &mut dyn MapProbe) {
+        if self.volume(vertex).is_some_and(VolumeState::counts) {
+            self.restore(vertex, probe);
+        }
+    }
+
+    /// Compares a volume that still has frontier that counts with the retired ones in its scope.
+    pub(super) fn ask_retired_about(&mut self, root: VertexId, probe: &mut dyn MapProbe) {
+        let needed = self.volume(root).is_some_and(|state| !state.retired && state.counts());
+        if let Some(scope) = self.full_scope_if(root, needed) {
+            self.ask_retired(scope, probe, |_, _| true, true);
+        }
+    }
+
+    /// Compares volumes that still have frontier that counts with retired ones, where new edges at
+    /// the root changed the path between the two; `before` is the scope in the full graph without
+    /// them.
+    pub(super) fn ask_retired_across(
+        &mut self,
+        root: VertexId,
+        before: &Scope,
+        probe: &mut dyn MapProbe,
+    ) {
+        let Some(scope) = self.full_scope_if(root, true) else { return };
+        let changed = Changed::new(before, &scope, &self.full);
+        self.ask_retired(scope, probe, |a, b| changed.is_path_of(a, b), false);
+    }
+
+    /// Compares rows of a scope of the full graph whose frontier counts with its retired rows.
+    fn ask_retired(
+        &mut self,
+        mut scope: Scope,
+        probe: &mut dyn MapProbe,
+        is_pair: impl Fn(u32, u32) -> bool,
+        root_only: bool,
+    ) {
+        std::mem::swap(&mut self.scope, &mut scope);
+        self.scope_is_full = true;
+        let rows = self.scope.placed().len() as u32;
+        let mut pairs = std::mem::take(&mut self.work.pairs);
+        pairs.clear();
+        let volume = |row: u32| self.volume(self.scope.placed()[row as usize].vertex);
+        let retired: Vec<u32> =
+            (0..rows).filter(|&row| volume(row).is_some_and(|state| state.retired)).collect();
+        for a in 0..if root_only { rows.min(1) } else { rows } {
+            if !self.is_active(a) || !volume(a).is_some_and(VolumeState::counts) {
+                continue;
+            }
+            pairs.extend(
+                retired.iter().filter(|&&b| is_pair(a, b) && self.may_touch(a, b)).map(|&b| (a, b)),
+            );
+        }
+        self.work.pairs = pairs;
+        if !self.work.pairs.is_empty() {
+            if probe::Probe::<ConsolidationEvent<'_>>::on(probe) {
+                probe.emit(ConsolidationEvent::ScopeTaken {
+                    scope: &self.scope,
+                    skeleton: &self.full,
+                });
+            }
+            self.consolidate(probe);
+        }
+        std::mem::swap(&mut self.scope, &mut scope);
+        self.scope_is_full = false;
+        if !self.work.pairs.is_empty() {
+            for (_, by) in std::mem::take(&mut self.work.touched) {
+                if self.volume(by).is_some_and(|state| state.closed_others) {
+                    self.restore(by, probe);
+                }
+            }
+        }
+    }
+
+    /// The scope of `root` in the full graph, if that is needed and anything is retired.
+    pub(super) fn full_scope_if(&mut self, root: VertexId, needed: bool) -> Option<Scope> {
+        if !needed || self.skeleton.retired_count() == 0 {
+            return None;
+        }
+        let mut scope = Scope::default();
+        let radius_m = self.params.consolidation_radius_m;
+        self.scratch.place(&self.full, root, radius_m, &mut scope);
+        Some(scope)
     }
 }

@@ -30,7 +30,7 @@ pub struct VolumeState {
     pub unreachable_m: f64,
     /// Whether it closed frontier of another volume that counted.
     pub closed_others: bool,
-    /// The volumes of whose frontier it closed parts.
+    /// The volumes of whose frontier it closed parts, ascending.
     pub closed_in: Vec<VertexId>,
     /// Whether it is out of later comparisons.
     pub retired: bool,

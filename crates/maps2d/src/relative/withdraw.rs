@@ -11,9 +11,9 @@ use crate::MapProbe;
 
 impl RelativeMap {
     /// Steps: every closing whose path walks the edge is opened; the skeleton is built anew without
-    /// the edge, volumes that lost closings are taken in again; and what other paths account for is
-    /// closed again, by the volumes around each volume that was opened and around both ends of the
-    /// edge.
+    /// the edge, and without anything retired; what other paths account for is closed again, by the
+    /// volumes around each volume that was opened and around both ends of the edge; and what was
+    /// retired before and is still spent is retired again.
     ///
     /// Cost: linear in the size of the graph; withdrawals are rare.
     pub(super) fn withdraw(&mut self, graph: &PoseGraph, id: EdgeId, probe: &mut dyn MapProbe) {
@@ -28,17 +28,18 @@ impl RelativeMap {
         }
         let edge = *graph.edge(id);
         let ends = [edge.a, edge.b];
+        self.skeleton = self.full.clone();
         let before = ends.map(|end| self.scope_around(end));
-        self.rebuild_skeleton(graph, probe);
+        let retired = self.take_all_in();
+        self.rebuild_skeleton(graph);
         for &vertex in &reopened {
-            let root = self.skeleton.resolve(vertex).0;
-            self.compare_with_scope(root, probe);
+            self.compare_with_scope(vertex, probe);
         }
         for (end, before) in ends.into_iter().zip(before) {
-            let root = self.skeleton.resolve(end).0;
-            self.take_scope(root, probe);
+            self.take_scope(end, probe);
             self.compare_across(&before, probe);
         }
+        self.retire_again(&retired, probe);
     }
 
     /// Opens what relied on the paths; returns whether there was any.
@@ -65,40 +66,55 @@ impl RelativeMap {
                 });
             }
         }
-        if any && state.retired {
-            state.retired = false;
-            probe.emit(ConsolidationEvent::Restored { volume: vertex });
-        }
         if any {
             self.remeasure(vertex);
         }
         any
     }
 
-    /// The skeleton from the record, with the volumes that are still retired contracted again.
-    fn rebuild_skeleton(&mut self, graph: &PoseGraph, probe: &mut dyn MapProbe) {
+    /// No volume is retired any more; returns which were.
+    fn take_all_in(&mut self) -> Vec<VertexId> {
+        let mut retired: Vec<VertexId> = Vec::new();
+        for vertex in self.volumes.ids() {
+            if let Some(state) = self.volumes[vertex].as_deref_mut()
+                && std::mem::take(&mut state.retired)
+            {
+                retired.push(vertex);
+            }
+        }
+        retired
+    }
+
+    /// Volumes that were retired are so again, unless they are needed now.
+    fn retire_again(&mut self, retired: &[VertexId], probe: &mut dyn MapProbe) {
+        for &vertex in retired {
+            let again = self.is_spent(vertex) && self.skeleton.retire(vertex, &mut self.scratch);
+            match self.volumes[vertex].as_deref_mut() {
+                Some(state) if again => state.retired = true,
+                _ => probe.emit(ConsolidationEvent::Restored { volume: vertex }),
+            }
+        }
+        self.scope_is_fresh = false;
+    }
+
+    /// The skeleton from the record, without the edge that was withdrawn.
+    fn rebuild_skeleton(&mut self, graph: &PoseGraph) {
         let mut skeleton = Skeleton::new(2.0 * self.params.consolidation_radius_m);
         if let Some(last) = self.volumes.ids().next_back() {
             skeleton.cover(last);
         }
         for (id, edge) in graph.edges().filter(|(_, edge)| !edge.withdrawn) {
             skeleton.cover(edge.a.max(edge.b));
-            skeleton.add_edge(id, edge);
+            skeleton.add_edge(id, edge, &mut self.scratch);
         }
-        for vertex in self.volumes.ids() {
-            let Some(state) = self.volumes[vertex].as_deref_mut() else { continue };
-            if state.retired && !skeleton.retire(vertex, &mut self.scratch) {
-                state.retired = false;
-                probe.emit(ConsolidationEvent::Restored { volume: vertex });
-            }
-        }
+        self.full = skeleton.clone();
         self.skeleton = skeleton;
         self.scope_is_fresh = false;
     }
 
     fn scope_around(&mut self, vertex: VertexId) -> Scope {
-        let root = self.skeleton.resolve(vertex).0;
-        self.take_scope(root, &mut probe::Off);
+        self.scope_is_fresh = false;
+        self.take_scope(vertex, &mut probe::Off);
         self.scope.clone()
     }
 }

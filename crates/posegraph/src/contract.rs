@@ -1,0 +1,133 @@
+//! Contraction: vertices leave the skeleton, and come back, without changing the ways of others.
+//!
+//! A vertex keeps the links that it had when it left. They lead to vertices that leave later or
+//! never, so following them, shortest first, finds every shortest way out of what has left.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use probe::VertexId;
+
+use crate::{Link, ScopeScratch, Skeleton};
+
+/// Ways longer than the horizon are dropped where another way is at most this many times as long.
+const DETOUR: f64 = 1.5;
+
+impl Skeleton {
+    /// Contracts a vertex: afterwards it has no links, and its nearest neighbour stands for it.
+    ///
+    /// Every pair of its neighbours whose shortest way led through it, and is no longer than the
+    /// horizon, gets that way as a link. Returns whether it was done: a vertex without neighbours
+    /// and a vertex that is retired already are left alone.
+    ///
+    /// Cost: a bounded search per pair of neighbours.
+    pub fn retire(&mut self, vertex: VertexId, scratch: &mut ScopeScratch) -> bool {
+        if self.is_retired(vertex) {
+            return false;
+        }
+        let mut links = std::mem::take(&mut self.nodes[vertex].links);
+        if links.is_empty() {
+            return false;
+        }
+        // The shortest of parallel links is the only one that a shortest way can use.
+        links.sort_by(Link::by_length);
+        let mut seen: Vec<VertexId> = Vec::with_capacity(links.len());
+        links.retain(|link| {
+            let first = !seen.contains(&link.to);
+            seen.push(link.to);
+            first
+        });
+        for link in &links {
+            self.nodes[link.to].links.retain(|back| back.to != vertex);
+        }
+        // Shorter composed ways first, so that they can witness against longer ones.
+        let mut pairs: Vec<(f64, usize, usize)> = Vec::new();
+        for i in 0..links.len() {
+            for j in i + 1..links.len() {
+                pairs.push((links[i].length_m + links[j].length_m, i, j));
+            }
+        }
+        pairs.sort_by(|a, b| a.0.total_cmp(&b.0).then((a.1, a.2).cmp(&(b.1, b.2))));
+        for (length_m, i, j) in pairs {
+            let (x, y) = (&links[i], &links[j]);
+            if !self.is_witnessed(x.to, y.to, length_m, scratch) {
+                self.replace(x.to, x.back_to(vertex).then(y));
+            }
+        }
+        self.nodes[vertex].spare = links;
+        self.retired += 1;
+        true
+    }
+
+    /// Takes a retired vertex in again, with links to all around it that it needs to be as far from
+    /// every other vertex as it is along the measured edges, up to the horizon.
+    ///
+    /// Ways between other vertices stay what they are. Returns whether the vertex was retired.
+    ///
+    /// Cost: a search through the retired vertices within the horizon.
+    pub fn restore(&mut self, vertex: VertexId, scratch: &mut ScopeScratch) -> bool {
+        if !self.is_retired(vertex) {
+            return false;
+        }
+        let ways = self.ways_out(vertex);
+        self.nodes[vertex].spare = Vec::new();
+        self.retired -= 1;
+        for way in ways {
+            if !self.is_witnessed(vertex, way.to, way.length_m, scratch) {
+                self.connect(vertex, way);
+            }
+        }
+        true
+    }
+
+    /// Whether there is another way that makes one of this length superfluous.
+    fn is_witnessed(
+        &self,
+        a: VertexId,
+        b: VertexId,
+        length_m: f64,
+        scratch: &mut ScopeScratch,
+    ) -> bool {
+        let bound_m = if length_m <= self.horizon_m { length_m } else { DETOUR * length_m };
+        scratch.distance_within(self, a, b, bound_m).is_some()
+    }
+
+    /// The shortest ways from a retired vertex through retired vertices to those that are not,
+    /// shortest first: all that are no longer than the horizon, and the shortest at least.
+    fn ways_out(&self, vertex: VertexId) -> Vec<Link> {
+        let mut best: BTreeMap<VertexId, Link> = BTreeMap::new();
+        // Bits of lengths that are not negative are ordered as the lengths are.
+        let mut open: BTreeSet<(u64, VertexId)> = BTreeSet::new();
+        best.insert(vertex, Link::nowhere(vertex));
+        open.insert((0, vertex));
+        let mut ways: Vec<Link> = Vec::new();
+        while let Some((_, at)) = open.pop_first() {
+            let here = best[&at].clone();
+            if here.length_m > self.horizon_m && !ways.is_empty() {
+                break;
+            }
+            if !self.is_retired(at) {
+                ways.push(here);
+                continue;
+            }
+            for link in &self.nodes[at].spare {
+                let length_m = here.length_m + link.length_m;
+                match best.get(&link.to) {
+                    Some(known) if known.length_m <= length_m => continue,
+                    Some(known) => open.remove(&(known.length_m.to_bits(), link.to)),
+                    None => false,
+                };
+                open.insert((length_m.to_bits(), link.to));
+                best.insert(link.to, here.then(link));
+            }
+        }
+        ways
+    }
+
+    /// Adds a link and drops longer ones between the same two vertices.
+    fn replace(&mut self, from: VertexId, link: Link) {
+        let to = link.to;
+        self.nodes[from].links.retain(|known| known.to != to);
+        self.nodes[to].links.retain(|known| known.to != from);
+        self.connect(from, link);
+    }
+}
