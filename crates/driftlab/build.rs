@@ -1,7 +1,5 @@
 //! Tells the program which commit it was built from, where that can be told.
 
-#![expect(clippy::print_stdout, reason = "a build script speaks to cargo through stdout")]
-
 use std::path::{Path, PathBuf};
 use std::{env, fs};
 

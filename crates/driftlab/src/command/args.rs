@@ -83,7 +83,7 @@ pub(super) struct ConfigInput {
     /// Set one value of the config, as a TOML value; may be given again
     ///
     /// The path is the one of the config: `--set odometry.scale=0.5`, `--set 'record.level="off"'`,
-    /// `--set world.maze.rows=5`. Naming another kind of world than the config's replaces it.
+    /// `--set 'planner.survey={}'`. Naming another world or planner than the config's replaces it.
     #[arg(long = "set", value_name = "PATH=VALUE")]
     pub(super) sets: Vec<String>,
     /// Explore this map file instead of the config's world

@@ -40,7 +40,7 @@ pub use experiment::{Config, Start};
 pub use generators::{CavesWorld, CorridorWorld, MazeWorld, Pillar, PillarsWorld, RoomsWorld};
 pub use load::{Loaded, Overrides};
 pub use maps::{GridMap, Maps, Occlusion, RelativeMap};
-pub use planner::{Planner, RapidPlanner};
+pub use planner::{Planner, RapidPlanner, SurveyPlanner};
 pub use report::{Compare, Every, Level, Metrics, Record, Rule};
 pub use robot::{Odometry, Places, Robot, Sensor};
 pub use schema::{meaning, schema};

@@ -10,7 +10,7 @@ use super::schema::{Property, is_variant_table, properties, property_at, resolve
 use super::{
     CavesWorld, Config, CorridorWorld, GridMap, ImageWorld, Loaded, MapServerWorld, MazeWorld,
     MovingAiWorld, Origin, PaperWorld, PillarsWorld, PolygonsWorld, RapidPlanner, RelativeMap,
-    RoomsWorld, Start, ThesisWorld,
+    RoomsWorld, Start, SurveyPlanner, ThesisWorld,
 };
 
 /// The resolved config as TOML, each value with its origin as a comment.
@@ -163,6 +163,7 @@ fn optional_tables() -> Vec<(&'static str, bool, toml::Table)> {
         ("map.relative", true, table_of(&RelativeMap::default())),
         ("map.grid", false, table_of(&GridMap::default())),
         ("planner.rapid", true, table_of(&RapidPlanner::default())),
+        ("planner.survey", false, table_of(&SurveyPlanner::default())),
     ]
 }
 

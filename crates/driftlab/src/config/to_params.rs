@@ -1,6 +1,6 @@
 //! The tables of a config as the algorithms want them: plain parameters, radians.
 
-use explore::{ExploreParams, Policy, RapidParams};
+use explore::{ExploreParams, Policy};
 use maps2d::grid::GridParams;
 use maps2d::relative::{Certainty, RelativeParams};
 use maps2d::volume::{OcclusionRule, Options, VolumeParams};
@@ -12,7 +12,7 @@ use worlds::{DriveParams, OdometryParams, PlaceParams, RobotParams, SensorParams
 
 use super::{
     CavesWorld, Config, CorridorWorld, GridMap, MazeWorld, Metrics, Occlusion, Odometry, Pillar,
-    PillarsWorld, Places, Planner, RapidPlanner, Robot, RoomsWorld, Rule, Sensor,
+    PillarsWorld, Places, Planner, Robot, RoomsWorld, Rule, Sensor,
 };
 
 impl From<&Config> for RobotParams {
@@ -129,25 +129,11 @@ impl From<&GridMap> for GridParams {
 
 impl From<&Config> for ExploreParams {
     fn from(config: &Config) -> Self {
-        let Planner::Rapid(planner) = &config.planner;
-        Self { policy: Policy::Rapid(planner.into()), max_steps: u64::from(config.max_steps) }
-    }
-}
-
-impl From<&RapidPlanner> for RapidParams {
-    fn from(planner: &RapidPlanner) -> Self {
-        Self {
-            step_m: planner.step_m,
-            clearances_m: planner.clearances_m.clone(),
-            turn_tolerance_rad: planner.turn_tolerance_deg.to_radians(),
-            normal_point_m: planner.normal_point_m.clone(),
-            arrival_m: planner.arrival_m,
-            give_up_radius_m: planner.give_up_radius_m,
-            visits_in_vain: planner.visits_in_vain,
-            turns_at_a_place: planner.turns_at_a_place,
-            teleport: planner.teleport,
-            ..Self::default()
-        }
+        let policy = match &config.planner {
+            Planner::Rapid(planner) => Policy::Rapid(planner.into()),
+            Planner::Survey(planner) => Policy::Survey(planner.into()),
+        };
+        Self { policy, max_steps: u64::from(config.max_steps) }
     }
 }
 
