@@ -112,7 +112,7 @@ fn report(dir: &Path, outcome: &Outcome, out: &Out) -> Result<(), Failure> {
             ]
         })
         .collect();
-    let json = json!({ "dir": dir, "metrics": metrics, "timing": timing });
+    let json = json!({ "dir": dir.display().to_string(), "metrics": metrics, "timing": timing });
     out.result(&json, &table(&header, &rows))
 }
 

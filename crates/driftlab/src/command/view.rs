@@ -39,6 +39,7 @@ pub(super) fn view(args: &ViewArgs, out: &Out) -> Result<(), Failure> {
     if !status.success() {
         return Err(Failure::Work(anyhow!("{} ended with {status}", viewer.display())));
     }
+    let (viewer, file) = (viewer.display().to_string(), file.display().to_string());
     out.result(&json!({ "viewer": viewer, "file": file }), "")
 }
 

@@ -40,14 +40,17 @@ pub fn origins(loaded: &Loaded) -> BTreeMap<String, String> {
 }
 
 /// A config as TOML without comments, keys in the order of the schema.
-pub fn plain_toml(config: &Config) -> String {
+///
+/// # Errors
+/// For a map file whose name is not UTF-8.
+pub fn plain_toml(config: &Config) -> Result<String, toml::ser::Error> {
     let mut lines = Vec::new();
-    write_resolved(&table_of(config), "", &|_| None, &mut lines);
-    aligned(&lines)
+    write_resolved(&toml::Table::try_from(config)?, "", &|_| None, &mut lines);
+    Ok(aligned(&lines))
 }
 
 fn table_of(config: &impl serde::Serialize) -> toml::Table {
-    // A checked config has no value that TOML cannot write.
+    // What was read from TOML, and the defaults, can be written as TOML.
     toml::Table::try_from(config).unwrap_or_default()
 }
 

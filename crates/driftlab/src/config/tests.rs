@@ -38,7 +38,7 @@ fn the_resolved_text_means_the_same() {
     let loaded = load(MAZE, &["planner.survey={}", "sensor.fov_deg=360"]).unwrap();
     let again = load(&resolved_toml(&loaded), &[]).unwrap();
     assert_eq!(again.config, loaded.config);
-    assert_eq!(load(&plain_toml(&loaded.config), &[]).unwrap().config, loaded.config);
+    assert_eq!(load(&plain_toml(&loaded.config).unwrap(), &[]).unwrap().config, loaded.config);
 }
 
 #[test]

@@ -51,15 +51,14 @@ pub fn drive<W: Watch>(
     let maps = kinds.iter().filter_map(|kind| map_of(config, kind)).collect();
     let mut explorer = Explorer::new(maps, ExploreParams::from(config));
     let mut riders: Vec<Rider> = kinds.iter().map(|&kind| Rider::new(kind)).collect();
-    let mut step_micros = Vec::new();
+    let mut costs = Costs::default();
 
     watch.place(world, coverage)?;
     let mut step = 0;
     let report = loop {
         let before_m = witness.tally().distance_m;
         watch.step_begins(step, before_m, before_m);
-        let (report, spent) = timed_step(&mut explorer, &mut witness, watch);
-        step_micros.push(spent.as_secs_f64() * 1e6);
+        let (report, mut cost) = timed_step(&mut explorer, &mut witness, watch);
         let newly_seen = witness.take_newly_seen();
         for (rider, map) in riders.iter_mut().zip(explorer.maps()) {
             rider.step(step, &explorer, &report, map.as_ref(), &witness);
@@ -72,9 +71,12 @@ pub fn drive<W: Watch>(
                 newly_seen: &newly_seen,
                 row,
             };
+            let start = Instant::now();
             watch.step_ends(&end)?;
+            cost.watching += start.elapsed();
             on_step(row);
         }
+        costs.add(&cost);
         step += 1;
         if report.ending.is_some() {
             break report;
@@ -82,12 +84,6 @@ pub fn drive<W: Watch>(
     };
 
     let wall_secs = started.elapsed().as_secs_f64();
-    let timing = |rider: &Rider| MapTiming {
-        step_micros_median: quantile(&step_micros, 0.5),
-        step_micros_p99: quantile(&step_micros, 0.99),
-        map_bytes_peak: rider.bytes_peak,
-        wall_secs,
-    };
     let mut runs = Vec::with_capacity(riders.len());
     for (index, (mut rider, map)) in riders.into_iter().zip(explorer.maps()).enumerate() {
         rider.bytes_peak = rider.bytes_peak.max(map.bytes() as u64);
@@ -95,7 +91,7 @@ pub fn drive<W: Watch>(
         runs.push(MapRun {
             name: rider.name,
             metrics: rider.metrics(steers, &explorer, &report, map.as_ref(), &witness),
-            timing: timing(&rider),
+            timing: costs.timing(rider.bytes_peak, wall_secs),
             rows: rider.rows,
         });
     }
@@ -110,18 +106,51 @@ fn map_of(config: &Config, kind: &str) -> Option<Box<dyn ExplorationMap + Send>>
     }
 }
 
-/// One step, and the time it took without the simulator and the watcher.
+/// One step, and what it cost.
 fn timed_step<W: Watch>(
     explorer: &mut Explorer,
     witness: &mut Witness,
     watch: &mut W,
-) -> (StepReport, Duration) {
+) -> (StepReport, Cost) {
     let mut robot = TimedRobot::new(witness);
     let mut probe = TimedProbe::new(watch);
     let start = Instant::now();
     let report = explorer.step(&mut robot, &mut probe);
-    let spent = start.elapsed().saturating_sub(robot.spent + probe.spent);
-    (report, spent)
+    let (simulating, watching) = (robot.spent, probe.spent);
+    (report, Cost { own: start.elapsed().saturating_sub(simulating + watching), watching })
+}
+
+/// The time of one step.
+struct Cost {
+    /// Of the maps and the policy.
+    own: Duration,
+    /// Of whoever watches.
+    watching: Duration,
+}
+
+/// The times of all steps, microseconds.
+#[derive(Default)]
+struct Costs {
+    own: Vec<f64>,
+    watching: Vec<f64>,
+}
+
+impl Costs {
+    fn add(&mut self, cost: &Cost) {
+        self.own.push(cost.own.as_secs_f64() * 1e6);
+        self.watching.push(cost.watching.as_secs_f64() * 1e6);
+    }
+
+    fn timing(&self, map_bytes_peak: u64, wall_secs: f64) -> MapTiming {
+        MapTiming {
+            step_micros_median: quantile(&self.own, 0.5),
+            step_micros_p99: quantile(&self.own, 0.99),
+            record_micros_median: quantile(&self.watching, 0.5),
+            record_micros_p99: quantile(&self.watching, 0.99),
+            map_bytes_peak,
+            wall_secs,
+        }
+    }
 }
 
 /// One map of a run, as its rows and sums grow.

@@ -1,7 +1,7 @@
 //! Where a run came from: program, seed, inputs, and how it ended.
 
 use std::collections::BTreeMap;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use serde::Serialize;
 use sha2::{Digest, Sha256};
@@ -15,8 +15,8 @@ pub const VERSION: &str = env!("CARGO_PKG_VERSION");
 /// One file that went into a run.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 pub struct Input {
-    /// The file, as it was named.
-    pub path: PathBuf,
+    /// The file, as it was named; letters that are no UTF-8 are replaced.
+    pub path: String,
     /// Its length.
     pub bytes: u64,
     /// SHA-256 of its content, in hexadecimal digits.
@@ -27,7 +27,7 @@ impl Input {
     /// Notes a file that was read.
     pub fn new(path: &Path, content: &[u8]) -> Self {
         let sha256 = Sha256::digest(content).iter().map(|byte| format!("{byte:02x}")).collect();
-        Self { path: path.to_owned(), bytes: content.len() as u64, sha256 }
+        Self { path: path.display().to_string(), bytes: content.len() as u64, sha256 }
     }
 }
 

@@ -9,7 +9,7 @@ use instrument::{
 use metrics::Coverage;
 use worlds::World2d;
 
-use super::{Experiment, StepSeen, Watch};
+use super::{Experiment, RunError, StepSeen, Watch};
 use crate::config::{self, plain_toml};
 
 /// Starts the recording of an experiment; at level `off` no file is made.
@@ -22,7 +22,7 @@ pub fn start_recording(
     experiment: &Experiment,
     path: &Path,
     about: &str,
-) -> Result<Recording, InstrumentError> {
+) -> Result<Recording, RunError> {
     let config = &experiment.config;
     let level = match config.record.level {
         config::Level::Off => Level::Off,
@@ -39,18 +39,18 @@ pub fn start_recording(
         .with(Family::Planner, planner)
         .with(Family::Truth, truth);
     let scope_m = config.map.relative.as_ref().map_or(0.0, |map| map.consolidation_radius_m);
-    Recording::create(RecordingOptions {
+    Ok(Recording::create(RecordingOptions {
         path: path.to_owned(),
         name: config.name.clone(),
         level,
         every,
         maps: experiment.robots().iter().map(|maps| MapOptions::of_kind(maps[0])).collect(),
         about: about.to_owned(),
-        config: plain_toml(config),
+        config: plain_toml(config)?,
         bounds_in_world: experiment.place.world.bounds(),
         follow: false,
         sight_m: scope_m.min(20.0) + config.sensor.range_m,
-    })
+    })?)
 }
 
 impl Watch for Recorder {

@@ -77,6 +77,10 @@ pub struct MapTiming {
     pub step_micros_median: f64,
     /// 99th percentile of the same.
     pub step_micros_p99: f64,
+    /// Median time that the recording added to a step, microseconds.
+    pub record_micros_median: f64,
+    /// 99th percentile of the same.
+    pub record_micros_p99: f64,
     /// Most memory that the map held, bytes.
     pub map_bytes_peak: u64,
     /// Time of the run of this map, seconds.

@@ -34,9 +34,9 @@ pub enum RunError {
     /// The table of steps cannot be made.
     #[error(transparent)]
     Steps(#[from] StepsError),
-    /// The provenance cannot be put into its form.
+    /// The config or the provenance cannot be put into its form.
     #[error(transparent)]
-    Provenance(#[from] toml::ser::Error),
+    Toml(#[from] toml::ser::Error),
 }
 
 /// Runs every robot of an experiment, one after the other, and records them to `recording`.
@@ -99,7 +99,7 @@ pub fn files(
         inputs,
     };
     Ok(vec![
-        (names::CONFIG, crate::config::plain_toml(&experiment.config).into_bytes()),
+        (names::CONFIG, crate::config::plain_toml(&experiment.config)?.into_bytes()),
         (names::STEPS, to_parquet(&outcome.rows)?),
         (names::TIMING, report::to_file(&outcome.timing)?),
         (names::PROVENANCE, provenance.to_toml()?.into_bytes()),
