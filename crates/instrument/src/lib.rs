@@ -1,1 +1,19 @@
+#![doc = include_str!("../README.md")]
 
+mod columns;
+mod error;
+mod inspect;
+mod layout;
+mod options;
+mod palette;
+mod recorder;
+mod recording;
+
+pub use error::InstrumentError;
+pub use inspect::{
+    Difference, EntityInfo, EventCount, Inspection, TimelineInfo, declared_events, diff,
+    fingerprint, inspect,
+};
+pub use options::{Centre, Every, Family, Level, MapOptions, RecordingOptions};
+pub use recorder::{Recorder, StepEnd};
+pub use recording::Recording;

@@ -1,0 +1,112 @@
+//! Whether two recordings say the same, whatever order and chunks their rows came in.
+
+use std::collections::BTreeMap;
+use std::path::Path;
+
+use sha2::{Digest as _, Sha256};
+
+use super::content;
+use super::read::read;
+use crate::InstrumentError;
+
+/// One row of one component: where on the timelines, and a hash of what it says.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
+struct Row {
+    times: Vec<(String, i64)>,
+    says: [u8; 32],
+}
+
+/// All rows by entity and component; those of equal times in the order in which they were written.
+type Rows = BTreeMap<(String, String), Vec<Row>>;
+
+/// One difference between two recordings.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Difference {
+    /// The entity.
+    pub entity: String,
+    /// The component of it.
+    pub component: String,
+    /// What differs, in words.
+    pub what: String,
+}
+
+fn rows(path: &Path) -> Result<Rows, InstrumentError> {
+    let mut all = Rows::new();
+    read(path, |chunk, _| {
+        let entity = chunk.entity_path().to_string();
+        // Start time and the like: of the file, not of the experiment.
+        if entity.starts_with("/__properties") {
+            return;
+        }
+        let mut timelines: Vec<_> = chunk.timelines().iter().collect();
+        timelines.sort_by_key(|(name, _)| name.to_string());
+        for column in chunk.components().values() {
+            let component = column.descriptor.component.to_string();
+            let list = &column.list_array;
+            let rows = all.entry((entity.clone(), component)).or_default();
+            for i in (0..chunk.num_rows())
+                .filter(|&i| !rerun::external::arrow::array::Array::is_null(list, i))
+            {
+                let times =
+                    timelines.iter().map(|(name, times)| (name.to_string(), times.times_raw()[i]));
+                let mut hash = Sha256::new();
+                content::add(&list.value(i), &mut hash);
+                rows.push(Row { times: times.collect(), says: hash.finalize().into() });
+            }
+        }
+    })?;
+    for rows in all.values_mut() {
+        rows.sort_by(|a, b| a.times.cmp(&b.times));
+    }
+    Ok(all)
+}
+
+/// How two recordings differ in what they say: rows by entity, component and time.
+///
+/// Chunks, row ids, the layout, names and start times do not count. The list is empty where nothing
+/// differs; it holds at most one entry per component, which tells of the first row that differs.
+///
+/// # Errors
+/// Files that cannot be read at all. Damaged files are compared as far as they can be read.
+pub fn diff(a: &Path, b: &Path) -> Result<Vec<Difference>, InstrumentError> {
+    let (a, b) = (rows(a)?, rows(b)?);
+    let mut differences = Vec::new();
+    let keys: std::collections::BTreeSet<_> = a.keys().chain(b.keys()).collect();
+    let none = Vec::new();
+    for key in keys {
+        let (left, right) = (a.get(key).unwrap_or(&none), b.get(key).unwrap_or(&none));
+        let what = match left.iter().zip(right).find(|(l, r)| l != r) {
+            Some((l, r)) if l.times == r.times => format!("other content at {}", when(l)),
+            Some((l, r)) => format!("rows part at {} and {}", when(l), when(r)),
+            None if left.len() == right.len() => continue,
+            None => format!("{} rows against {}", left.len(), right.len()),
+        };
+        let (entity, component) = key.clone();
+        differences.push(Difference { entity, component, what });
+    }
+    Ok(differences)
+}
+
+fn when(row: &Row) -> String {
+    if row.times.is_empty() {
+        return "all times".to_owned();
+    }
+    let times: Vec<String> = row.times.iter().map(|(name, at)| format!("{name} {at}")).collect();
+    times.join(", ")
+}
+
+/// A hash of everything that a recording says: equal where [`diff`] finds nothing.
+///
+/// # Errors
+/// A file that cannot be read at all.
+pub fn fingerprint(path: &Path) -> Result<String, InstrumentError> {
+    let mut hash = Sha256::new();
+    for ((entity, component), rows) in rows(path)? {
+        hash.update(format!("{entity}\n{component}\n{}\n", rows.len()));
+        for row in rows {
+            hash.update(format!("{:?}", row.times));
+            hash.update(row.says);
+        }
+    }
+    Ok(hash.finalize().iter().map(|byte| format!("{byte:02x}")).collect())
+}

@@ -1,0 +1,8 @@
+//! How a recording opens: its views, and what its text page says.
+
+mod arrange;
+mod text;
+mod views;
+
+pub(crate) use text::{about, result};
+pub(crate) use views::send;

@@ -1,0 +1,196 @@
+//! Which views a recording opens with.
+
+use geometry::Point2;
+use rerun::RecordingStream;
+use rerun::RecordingStreamBuilder;
+use rerun::RecordingStreamResult;
+use rerun::external::re_sdk_types::blueprint::archetypes::{
+    Background, PlotLegend, TextLogColumns, VisualBounds2D,
+};
+use rerun::external::re_sdk_types::blueprint::components::{
+    BackgroundKind, ContainerKind, Corner2D,
+};
+use rerun::external::re_sdk_types::blueprint::datatypes::{TextLogColumn, TextLogColumnKind};
+
+use super::arrange::{Layout, Property, View, Written};
+use crate::recording::{ABOUT, CONFIG, RESULT, send_layout};
+use crate::{Centre, Level, MapOptions, RecordingOptions, palette};
+
+/// Sends the layout of a recording.
+pub(crate) fn send(stream: &RecordingStream, options: &RecordingOptions) -> Result<(), String> {
+    let store = RecordingStreamBuilder::new("driftlab").blueprint().memory();
+    let (blueprint, storage) = store.map_err(|e| e.to_string())?;
+    blueprint.set_time_sequence("blueprint", 0);
+    write(&blueprint, options).map_err(|e| e.to_string())?;
+    send_layout(stream, storage.take());
+    Ok(())
+}
+
+fn write(stream: &RecordingStream, options: &RecordingOptions) -> RecordingStreamResult<()> {
+    let mut layout = Layout { stream, count: 0 };
+    let mut rows = Vec::new();
+    for map in &options.maps {
+        rows.push(map_row(&mut layout, map, options)?);
+    }
+    let maps = if rows.len() == 1 {
+        rows.remove(0)
+    } else {
+        layout.container(ContainerKind::Vertical, &rows, &vec![1.0; rows.len()])?
+    };
+    let side = side(&mut layout, options)?;
+    layout.container(ContainerKind::Horizontal, &[maps, side], &[3.0, 1.35])?;
+    layout.finish(options.follow)
+}
+
+/// One map: truth, belief, and behind tabs the graph and the single event.
+fn map_row(
+    layout: &mut Layout<'_>,
+    map: &MapOptions,
+    options: &RecordingOptions,
+) -> RecordingStreamResult<Written> {
+    let name = &map.name;
+    let (low, high) = options.bounds_in_world;
+    let whole = bounds(&low, &high, 1.0);
+    let sight_m = options.sight_m;
+    let around = bounds(&Point2::new(-sight_m, -sight_m), &Point2::new(sight_m, sight_m), 0.0);
+    // Drift carries a global map out of the place.
+    let margin_m = 0.2 * (high.x - low.x).max(high.y - low.y);
+    let drifted = bounds(&low, &high, margin_m);
+    let paper = background();
+
+    let truth = layout.view(&View {
+        class: "2D",
+        name: format!("{name}: truth, and what was really seen"),
+        origin: format!("/{name}/eye"),
+        contents: vec![format!("+ /{name}/truth/**")],
+        properties: vec![("VisualBounds2D", &whole), ("Background", &paper)],
+    })?;
+    let (title, origin, sight) = match map.centre {
+        Centre::Robot => ("belief around the robot", format!("/{name}/belief/eye"), &around),
+        Centre::Start => ("belief over the true walls", format!("/{name}/eye"), &drifted),
+    };
+    let belief = |title: &str, more: &[&str]| {
+        let mut contents = vec![
+            format!("+ /{name}/belief/**"),
+            format!("- /{name}/belief/event/**"),
+            format!("- /{name}/belief/scope_tree/**"),
+            format!("- /{name}/belief/vertices/**"),
+        ];
+        contents.extend(more.iter().map(|rule| rule.replace("$map", &format!("/{name}"))));
+        View {
+            class: "2D",
+            name: format!("{name}: {title}"),
+            origin: origin.clone(),
+            contents,
+            properties: vec![("VisualBounds2D", sight), ("Background", &paper)],
+        }
+    };
+    let walls: &[&str] = match map.centre {
+        Centre::Robot => &[],
+        Centre::Start => &["+ $map/truth/walls"],
+    };
+    let believed = layout.view(&belief(title, walls))?;
+    let mut behind = vec![believed];
+    if options.level == Level::Full {
+        let rules = [
+            "- $map/belief/planner/**",
+            "+ $map/belief/event/**",
+            "+ $map/belief/scope_tree/**",
+            "+ $map/belief/vertices/**",
+        ];
+        behind.push(layout.view(&belief("the last event", &rules))?);
+    }
+    if map.centre == Centre::Robot {
+        let rules = ["+ $map/truth/walls", "+ $map/truth/path/**"];
+        let over = belief("belief over the true walls", &rules);
+        let origin = format!("/{name}/eye");
+        let properties: Vec<Property<'_>> =
+            vec![("VisualBounds2D", &whole), ("Background", &paper)];
+        behind.push(layout.view(&View { origin, properties, ..over })?);
+    }
+    let graph = layout.view(&View {
+        class: "2D",
+        name: format!("{name}: pose graph by odometry"),
+        origin: format!("/{name}/eye"),
+        contents: vec![
+            format!("+ /{name}/graph/**"),
+            format!("+ /{name}/truth/walls"),
+            format!("+ /{name}/truth/path/**"),
+        ],
+        properties: vec![("VisualBounds2D", &drifted), ("Background", &paper)],
+    })?;
+    behind.push(graph);
+    let tabs = layout.container(ContainerKind::Tabs, &behind, &[])?;
+    layout.container(ContainerKind::Horizontal, &[truth, tabs], &[1.0, 1.0])
+}
+
+/// Text, plots and the log of events, for all maps.
+fn side(layout: &mut Layout<'_>, options: &RecordingOptions) -> RecordingStreamResult<Written> {
+    let mut texts = Vec::new();
+    for (name, origin) in [("read me", ABOUT), ("config", CONFIG), ("result", RESULT)] {
+        texts.push(layout.view(&View {
+            class: "TextDocument",
+            name: name.to_owned(),
+            origin: format!("/{origin}"),
+            contents: vec!["+ $origin".to_owned()],
+            properties: vec![],
+        })?);
+    }
+    let texts = layout.container(ContainerKind::Tabs, &texts, &[])?;
+    let legend = PlotLegend::new().with_corner(Corner2D::LeftTop);
+    let plot = |layout: &mut Layout<'_>, name: &str, series: &[&str]| {
+        let of_map = |map: &MapOptions| {
+            let path = format!("/{}/metrics", map.name);
+            series.iter().map(move |one| format!("+ {path}/{one}")).collect::<Vec<_>>()
+        };
+        layout.view(&View {
+            class: "TimeSeries",
+            name: name.to_owned(),
+            origin: "/".to_owned(),
+            contents: options.maps.iter().flat_map(of_map).collect(),
+            properties: vec![("PlotLegend", &legend)],
+        })
+    };
+    let coverage = plot(layout, "coverage", &["coverage"])?;
+    let frontier = plot(layout, "open frontier, m", &["frontier_open_m"])?;
+    let more = [
+        frontier,
+        plot(layout, "ignored frontier, m", &["frontier_ignored_m"])?,
+        plot(layout, "volumes in scope", &["volumes_in_scope"])?,
+        plot(layout, "distance, m", &["distance_m"])?,
+        plot(layout, "bumps, collisions", &["bumps", "collisions"])?,
+    ];
+    let more = layout.container(ContainerKind::Tabs, &more, &[])?;
+    let mut parts = vec![texts, coverage, more];
+    let mut shares = vec![1.5, 1.0, 1.0];
+    if options.level == Level::Full {
+        let columns = TextLogColumns::update_fields().with_text_log_columns(
+            [TextLogColumnKind::EntityPath, TextLogColumnKind::Body]
+                .map(|kind| TextLogColumn { visible: true.into(), kind }),
+        );
+        let contents =
+            options.maps.iter().map(|map| format!("+ /{}/events/**", map.name)).collect();
+        parts.push(layout.view(&View {
+            class: "TextLog",
+            name: "events".to_owned(),
+            origin: "/".to_owned(),
+            contents,
+            properties: vec![("TextLogColumns", &columns)],
+        })?);
+        shares.push(1.2);
+    }
+    layout.container(ContainerKind::Vertical, &parts, &shares)
+}
+
+/// Bounds of a view, whose y axis points down.
+fn bounds(low: &Point2, high: &Point2, margin_m: f64) -> VisualBounds2D {
+    VisualBounds2D::new(rerun::datatypes::Range2D {
+        x_range: [low.x - margin_m, high.x + margin_m].into(),
+        y_range: [-high.y - margin_m, -low.y + margin_m].into(),
+    })
+}
+
+fn background() -> Background {
+    Background::new(BackgroundKind::SolidColor)
+        .with_color(rerun::Color::from_u32(palette::BACKGROUND))
+}
