@@ -130,14 +130,11 @@ fn between_keys(config: &Config, faults: &mut Vec<Fault>) {
             faults.push(fault(&path, found.to_string(), expected.into()));
         }
     }
-    match &config.world {
-        Some(World::Polygons(world)) => {
-            if let Some(block) = world.blocks.iter().find(|block| block.len() < 3) {
-                let found = format!("a block of {} corners", block.len());
-                faults.push(fault("world.polygons.blocks", found, "3 corners or more".into()));
-            }
-        }
-        _ => {}
+    if let Some(World::Polygons(world)) = &config.world
+        && let Some(block) = world.blocks.iter().find(|block| block.len() < 3)
+    {
+        let found = format!("a block of {} corners", block.len());
+        faults.push(fault("world.polygons.blocks", found, "3 corners or more".into()));
     }
 }
 
