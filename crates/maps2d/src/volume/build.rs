@@ -2,6 +2,7 @@
 
 use geometry::Point2;
 use geometry::planar::{PlanarError, StarPolygon};
+use geometry::predicates::orient;
 
 use super::{EdgeKey, FrontierEdge, LocalVolume, ObstacleEdge, Options, Samples};
 
@@ -47,33 +48,36 @@ pub fn build(samples: &Samples, params: &VolumeParams) -> Result<LocalVolume, Pl
     let mut vertices: Vec<Point2> = Vec::with_capacity(kept.len());
     let mut gap_after: Vec<bool> = Vec::with_capacity(kept.len());
     let mut solid_after: Vec<bool> = Vec::with_capacity(kept.len());
+    // Whether the edge after each kept sample is an obstacle.
+    let mut bounds: Vec<bool> = Vec::with_capacity(kept.len());
     for (k, &i) in kept.iter().enumerate() {
         let j = kept[(k + 1) % kept.len()];
         // The samples between two kept ones are all surface, so the last of them decides.
         let before = if j == 0 { all.len() - 1 } else { j - 1 };
         let (a, b) = (all[i].end_in_anchor, all[j].end_in_anchor);
-        let turns_left = geometry::predicates::orient(&Point2::origin(), &a, &b) > 0.0;
-        let gap = samples.is_gap_after(before) || !turns_left;
+        let gap = samples.is_gap_after(before) || !turns_left(&a, &b);
         let thinned = before != i;
         let solid = !gap && (surface(before, j) && (thinned || surface(i, j)));
         vertices.push(a);
         gap_after.push(gap);
         solid_after.push(solid);
+        bounds.push(solid);
         let both_hit = all[i].hit && all[j].hit;
-        if params.options.insert_occlusion_vertex && !gap && !solid && both_hit {
-            vertices.push(Point2::from((a.coords + b.coords) * 0.5));
+        let middle = Point2::from((a.coords + b.coords) * 0.5);
+        // The middle of a chord past the sensor itself may not lie between its ends in bearing.
+        let between = turns_left(&a, &middle) && turns_left(&middle, &b);
+        if params.options.insert_occlusion_vertex && !gap && !solid && both_hit && between {
+            vertices.push(middle);
             gap_after.push(false);
             solid_after.push(false);
         }
     }
 
+    // Hits at neither end of an obstacle edge.
     let mut posts = Vec::new();
     for (k, &i) in kept.iter().enumerate() {
-        let before = kept[(k + kept.len() - 1) % kept.len()];
-        let after = kept[(k + 1) % kept.len()];
-        let lone = !(surface(before, i) && !samples.is_gap_after(before))
-            && !(surface(i, after) && !samples.is_gap_after(i));
-        if all[i].hit && lone {
+        let before = (k + kept.len() - 1) % kept.len();
+        if all[i].hit && !bounds[before] && !bounds[k] {
             posts.push(all[i].end_in_anchor);
         }
     }
@@ -82,6 +86,11 @@ pub fn build(samples: &Samples, params: &VolumeParams) -> Result<LocalVolume, Pl
     let inner = polygon.shrunk(params.strict_margin_m);
     let (frontier, obstacles) = label(&polygon, &solid_after);
     Ok(LocalVolume { polygon, inner, frontier, obstacles, posts })
+}
+
+/// Whether `b` lies counter-clockwise of `a`, by less than half a turn.
+fn turns_left(a: &Point2, b: &Point2) -> bool {
+    orient(&Point2::origin(), a, b) > 0.0
 }
 
 fn label(polygon: &StarPolygon, solid_after: &[bool]) -> (Vec<FrontierEdge>, Vec<ObstacleEdge>) {

@@ -20,6 +20,9 @@ pub struct Sample {
     pub end_in_anchor: Point2,
 }
 
+/// Bearings of arcs that differ by less are the same, radians.
+const ARC_SLACK_RAD: f64 = 1e-9;
+
 /// An arc of bearings that was looked at: from `start_rad` counter-clockwise over `span_rad`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Arc {
@@ -30,19 +33,22 @@ struct Arc {
 impl Arc {
     /// Whether the arc from `from_rad` over `span_rad` lies inside.
     fn holds(&self, from_rad: f64, span_rad: f64) -> bool {
-        let slack = 1e-9;
-        let mut offset = wrap_angle(from_rad - self.start_rad);
-        if offset < -slack {
-            offset += TAU;
-        }
-        offset + span_rad <= self.span_rad + slack
+        // In a full circle the start is like any other bearing.
+        self.span_rad >= TAU
+            || self.offset_rad(from_rad) + span_rad <= self.span_rad + ARC_SLACK_RAD
+    }
+
+    /// How far a bearing lies counter-clockwise from the start, radians; a hair before it is at it.
+    fn offset_rad(&self, bearing_rad: f64) -> f64 {
+        let offset = wrap_angle(bearing_rad - self.start_rad);
+        if offset < -ARC_SLACK_RAD { offset + TAU } else { offset.max(0.0) }
     }
 }
 
 /// All that was seen from one place: samples by rising bearing, and which neighbours belong together.
 ///
 /// Scans from the same place may be [added](Self::add) while the robot turns. Readings at the
-/// sensor itself (range zero) bound nothing: they split the view into two, with a gap between.
+/// sensor itself (up to a nanometre) bound nothing: they split the view into two, with a gap between.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Samples {
     samples: Vec<Sample>,
@@ -54,6 +60,17 @@ pub struct Samples {
 
 /// Rays closer than this in bearing are one ray, radians.
 const SAME_BEARING_RAD: f64 = 1e-7;
+
+/// What is nearer than this touches the sensor, metres.
+const TOUCHING_M: f64 = 1e-9;
+
+/// Where a ray ends. Coordinates too small for exact predicates are zero: far below the angle at
+/// which two rays are one.
+fn end_of_ray(range_m: f64, bearing_rad: f64) -> Point2 {
+    let (sin, cos) = bearing_rad.sin_cos();
+    let flushed = |c: f64| if c.abs() < 1e-90 { 0.0 } else { c };
+    Point2::new(flushed(range_m * cos), flushed(range_m * sin))
+}
 
 impl Samples {
     /// Nothing seen yet.
@@ -103,9 +120,8 @@ impl Samples {
                 Reading::Hit(range_m) => (range_m, true),
                 Reading::Miss => (scan.range_max_m, false),
             };
-            let end_in_anchor =
-                Point2::new(range_m * bearing_rad.cos(), range_m * bearing_rad.sin());
-            if end_in_anchor == Point2::origin() {
+            let end_in_anchor = end_of_ray(range_m, bearing_rad);
+            if range_m < TOUCHING_M {
                 self.touching_rad.push(bearing_rad);
             } else if tells(&end_in_anchor) {
                 self.samples.push(Sample { bearing_rad, range_m, hit, end_in_anchor });
@@ -131,13 +147,9 @@ impl Samples {
                     }
                     let (a, b) = (self.arcs[i], self.arcs[j]);
                     if a.holds(b.start_rad, 0.0) {
-                        let mut offset = wrap_angle(b.start_rad - a.start_rad);
-                        if offset < 0.0 {
-                            offset = (offset + TAU) % TAU;
-                        }
                         // What starts in `a` and ends in `a` after going round closes the circle.
-                        let reach = (offset + b.span_rad).max(a.span_rad);
-                        let span_rad = if reach >= TAU - 1e-9 { TAU } else { reach };
+                        let reach = (a.offset_rad(b.start_rad) + b.span_rad).max(a.span_rad);
+                        let span_rad = if reach >= TAU - ARC_SLACK_RAD { TAU } else { reach };
                         self.arcs[i] = Arc { start_rad: a.start_rad, span_rad };
                         self.arcs.remove(j);
                         joined = true;

@@ -6,6 +6,7 @@ mod drive;
 mod oracle;
 mod retirement;
 mod room;
+mod volume;
 mod withdrawal;
 
 use proptest::test_runner::{Config, FileFailurePersistence};
