@@ -87,8 +87,22 @@ impl Skeleton {
         length_m: f64,
         scratch: &mut ScopeScratch,
     ) -> bool {
-        let bound_m = if length_m <= self.horizon_m { length_m } else { DETOUR * length_m };
-        scratch.distance_within(self, a, b, bound_m).is_some()
+        let near = length_m <= self.horizon_m;
+        let bound_m = length_m * if near { self.stretch } else { DETOUR.max(self.stretch) };
+        self.is_near_by_one_stop(a, b, bound_m)
+            || scratch.distance_within(self, a, b, bound_m).is_some()
+    }
+
+    /// Whether one link, or two over a common neighbour, lead from `a` to `b` within a bound: what
+    /// nearly every search for a witness finds, at a fraction of its cost.
+    fn is_near_by_one_stop(&self, a: VertexId, b: VertexId, bound_m: f64) -> bool {
+        self.links(a).iter().any(|first| {
+            first.length_m <= bound_m
+                && (first.to == b
+                    || self.links(first.to).iter().any(|second| {
+                        second.to == b && first.length_m + second.length_m <= bound_m
+                    }))
+        })
     }
 
     /// The shortest ways from a retired vertex through retired vertices to those that are not,

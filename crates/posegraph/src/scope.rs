@@ -177,8 +177,7 @@ impl ScopeScratch {
         is_goal: impl FnMut(VertexId) -> bool,
     ) -> Option<Vec<(VertexId, f64)>> {
         let found =
-            dijkstra_nearest(&ByLength(skeleton), root, limit_m, is_goal, &mut self.search)
-                .ok()?;
+            dijkstra_nearest(&ByLength(skeleton), root, limit_m, is_goal, &mut self.search).ok()?;
         let goal = found.goal?.node;
         let path = found.tree.path_to(goal)?;
         let legs = path.windows(2).map(|pair| {

@@ -113,13 +113,25 @@ pub(crate) struct Node {
 pub struct Skeleton {
     pub(crate) nodes: IdVec<VertexId, Node>,
     pub(crate) horizon_m: f64,
+    pub(crate) stretch: f64,
     pub(crate) retired: usize,
 }
 
 impl Skeleton {
     /// An empty skeleton that keeps shortest ways exact up to `horizon_m` metres.
     pub fn new(horizon_m: f64) -> Self {
-        Self { nodes: IdVec::new(), horizon_m, retired: 0 }
+        Self::with_stretch(horizon_m, 1.0)
+    }
+
+    /// An empty skeleton that lets a way get longer by the factor `stretch`, at least 1, with each
+    /// vertex that is retired on it.
+    ///
+    /// At exactly 1 every retired vertex joins all its neighbours, because the straight way is
+    /// always a little shorter than the way round by another vertex, and the links of a place that
+    /// is passed again and again grow with every pass. At 1.1 they are few: what remains is a
+    /// sparse spanner.
+    pub fn with_stretch(horizon_m: f64, stretch: f64) -> Self {
+        Self { nodes: IdVec::new(), horizon_m, stretch: stretch.max(1.0), retired: 0 }
     }
 
     /// Makes room for vertices up to and including `vertex`.

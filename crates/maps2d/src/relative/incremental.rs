@@ -58,7 +58,9 @@ impl RelativeMap {
         self.take_scope(root, &mut probe::Off);
         let before = std::mem::take(&mut self.scope);
         let leaf = before.placed().len() == 1 && edges.len() == 1;
-        let before_in_full = self.full_scope_if(root, !leaf);
+        // Retired volumes are asked only where frontier that counts is left to ask about.
+        let asks = !leaf && before.placed().iter().any(|row| self.frontier_counts_at(row.vertex));
+        let before_in_full = self.full_scope_if(root, asks);
         for &id in edges {
             self.skeleton.add_edge(id, graph.edge(id), &mut self.scratch);
             self.full.add_edge(id, graph.edge(id), &mut self.scratch);
@@ -105,6 +107,10 @@ impl RelativeMap {
         let apart = a.root_from_vertex.transform(&centre) - b.root_from_vertex.translation;
         let reach_m = radius_m + of_b.volume.radius_m() + self.params.wall_closing_m;
         apart.coords.norm_squared() <= reach_m * reach_m
+    }
+
+    fn frontier_counts_at(&self, vertex: VertexId) -> bool {
+        self.volume(vertex).is_some_and(|state| !state.retired && state.counts())
     }
 
     pub(super) fn is_active(&self, row: u32) -> bool {

@@ -65,7 +65,7 @@ impl RelativeMap {
         Self {
             params,
             volumes: IdVec::new(),
-            skeleton: Skeleton::new(2.0 * params.consolidation_radius_m),
+            skeleton: empty_skeleton(&params),
             full: Skeleton::new(2.0 * params.consolidation_radius_m),
             book: PathBook::default(),
             scope: Scope::default(),
@@ -134,6 +134,11 @@ impl RelativeMap {
             });
         }
     }
+}
+
+/// The skeleton of a map without vertices: ways within the scope are kept, give or take a tenth.
+pub(super) fn empty_skeleton(params: &RelativeParams) -> Skeleton {
+    Skeleton::with_stretch(params.consolidation_radius_m, 1.1)
 }
 
 impl ExplorationMap for RelativeMap {

@@ -193,7 +193,7 @@ impl RelativeMap {
 ///
 /// Whole edges are clipped, not their open parts, so that a stretch does not depend on what was
 /// closed before.
-fn spans_inside(
+pub(super) fn spans_inside(
     state: &VolumeState,
     other: &LocalVolume,
     placements: &[Se2],
@@ -237,7 +237,12 @@ fn shared(a: &[Interval], b: &[Interval]) -> Vec<Interval> {
 
 /// `other_from_at` as estimated, and as it would be were the odometry in between wrong by the named
 /// number of standard deviations.
-fn placements(at_from_other: &Se2, odometry_m: f64, certainty: &Certainty, out: &mut Vec<Se2>) {
+pub(super) fn placements(
+    at_from_other: &Se2,
+    odometry_m: f64,
+    certainty: &Certainty,
+    out: &mut Vec<Se2>,
+) {
     let other_from_at = at_from_other.inverse();
     out.clear();
     out.push(other_from_at);

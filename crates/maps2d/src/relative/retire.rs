@@ -1,8 +1,9 @@
 //! Volumes that add nothing are taken out of later comparisons, so that going round and round in
 //! known space costs no more each time.
 //!
-//! A volume is spent when, as the robot leaves it, none of its own frontier counts any more and it
-//! never closed frontier of another volume that counted. It is retired: it takes no part in
+//! A volume is spent when, as the robot leaves it, none of its own frontier counts any more and the
+//! active volumes account without it for everything that it closed ([`RelativeMap::is_missed`] does
+//! the sum: it opens those parts on a copy and closes them again). It is retired: it takes no part in
 //! comparisons, and its vertex is contracted, which keeps every shortest path up to the horizon
 //! (`posegraph::Skeleton::retire`). What counts as frontier stays what it would be if nothing were
 //! ever retired:
@@ -19,16 +20,19 @@
 //! A retired volume that does close what counted is taken in again. So in known space, where no
 //! frontier is left, nobody asks, and the cost stops growing.
 
+use geometry::planar::Interval;
 use posegraph::Scope;
 use probe::VertexId;
 
 use super::incremental::Changed;
-use super::{ConsolidationEvent, RelativeMap, VolumeState};
+use super::pair::{placements, spans_inside};
+use super::walls::spans_along_walls;
+use super::{Cause, Closing, ConsolidationEvent, RelativeMap, VolumeState};
 use crate::MapProbe;
 
 impl RelativeMap {
     pub(super) fn retire_if_spent(&mut self, vertex: VertexId, probe: &mut dyn MapProbe) {
-        if !self.params.retire || !self.is_spent(vertex) {
+        if !self.params.retire || !self.is_spent(vertex) || self.is_missed(vertex) {
             return;
         }
         if !self.skeleton.retire(vertex, &mut self.scratch) {
@@ -36,6 +40,7 @@ impl RelativeMap {
         }
         if let Some(state) = self.volumes[vertex].as_deref_mut() {
             state.retired = true;
+            state.closed_others = false;
         }
         self.scope_is_fresh = false;
         if probe::Probe::<ConsolidationEvent<'_>>::on(probe) {
@@ -44,9 +49,63 @@ impl RelativeMap {
     }
 
     pub(super) fn is_spent(&self, vertex: VertexId) -> bool {
-        self.volume(vertex).is_some_and(|state| {
-            !state.retired && !state.counts() && !state.closed_others && state.given_up.is_empty()
-        })
+        self.volume(vertex)
+            .is_some_and(|state| !state.retired && !state.counts() && state.given_up.is_empty())
+    }
+
+    /// Whether frontier would count again somewhere if this volume had closed nothing: whether any
+    /// part that it closed is not closed by the other active volumes in scope as well.
+    ///
+    /// Cost: a scope for each volume of which it closed parts, until one misses it.
+    fn is_missed(&mut self, vertex: VertexId) -> bool {
+        let Some(state) = self.volume(vertex) else { return false };
+        if !state.closed_others {
+            return false;
+        }
+        let helped = state.closed_in.clone();
+        helped.into_iter().rev().any(|other| self.is_missed_by(other, vertex))
+    }
+
+    fn is_missed_by(&mut self, other: VertexId, vertex: VertexId) -> bool {
+        let Some(state) = self.volumes[other].as_deref() else { return false };
+        if state.retired {
+            return false;
+        }
+        let counted_m = state.open_m;
+        let mut without = state.clone();
+        let mut opened: Vec<Interval> = Vec::new();
+        let mut reason: Option<Closing> = None;
+        for ledger in &mut without.ledgers {
+            let relied = |closing: &Closing| {
+                let relies = closing.by == vertex && closing.cause != Cause::Unreachable;
+                reason = relies.then_some(*closing).or(reason);
+                relies
+            };
+            ledger.reopen(relied, &mut opened);
+        }
+        let Some(reason) = reason else { return false };
+        self.take_scope(other, &mut probe::Off);
+        let (mut poses, mut clipped) = (Vec::new(), Vec::new());
+        let mut spans: Vec<(usize, Interval)> = Vec::new();
+        for row in 1..self.scope.placed().len() as u32 {
+            let placed = self.scope.placed()[row as usize];
+            if !self.is_active(row) || placed.vertex == vertex {
+                continue;
+            }
+            let Some(helper) = self.volume(placed.vertex) else { continue };
+            let other_from_helper = placed.root_from_vertex;
+            placements(&other_from_helper, placed.odometry_m, &self.params.certainty, &mut poses);
+            spans.clear();
+            spans_inside(&without, &helper.volume, &poses, &mut clipped, &mut spans);
+            let wall_m = self.params.wall_closing_m;
+            spans_along_walls(&without, &helper.volume, &other_from_helper, wall_m, &mut spans);
+            for &(edge, span) in &spans {
+                opened.clear();
+                without.ledgers[edge].close(span, &reason, &mut opened);
+            }
+        }
+        without.measure(self.params.sliver_m);
+        without.open_m > counted_m
     }
 
     /// A retired volume takes part again.

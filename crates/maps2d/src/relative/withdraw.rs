@@ -3,9 +3,10 @@
 use std::collections::BTreeSet;
 
 use geometry::planar::Interval;
-use posegraph::{PoseGraph, Scope, Skeleton};
+use posegraph::{PoseGraph, Scope};
 use probe::{EdgeId, PathId, VertexId};
 
+use super::map::empty_skeleton;
 use super::{Closing, ConsolidationEvent, RelativeMap, ReopenCause};
 use crate::MapProbe;
 
@@ -99,7 +100,7 @@ impl RelativeMap {
 
     /// The skeleton from the record, without the edge that was withdrawn.
     fn rebuild_skeleton(&mut self, graph: &PoseGraph) {
-        let mut skeleton = Skeleton::new(2.0 * self.params.consolidation_radius_m);
+        let mut skeleton = empty_skeleton(&self.params);
         if let Some(last) = self.volumes.ids().next_back() {
             skeleton.cover(last);
         }
