@@ -35,7 +35,7 @@ fn a_killed_run_leaves_a_readable_recording() {
         .spawn()
         .expect("a child");
     let deadline = Instant::now() + Duration::from_secs(9);
-    while path.metadata().map_or(0, |file| file.len()) < 200_000 && Instant::now() < deadline {
+    while path.metadata().map_or(0, |file| file.len()) < 2_000_000 && Instant::now() < deadline {
         std::thread::sleep(Duration::from_millis(20));
     }
     victim.kill().expect("SIGKILL");

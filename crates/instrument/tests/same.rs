@@ -40,7 +40,10 @@ fn maps_in_threads_give_the_same_recording() {
         };
         if threads {
             std::thread::scope(|scope| {
-                maps.map(|kind| scope.spawn(move || run(kind)));
+                let run = &run;
+                for kind in maps {
+                    scope.spawn(move || run(kind));
+                }
             });
         } else {
             maps.iter().for_each(|kind| run(kind));

@@ -91,6 +91,14 @@ impl Lines {
         }
     }
 
+    /// Takes back what was added to the row being written.
+    pub fn forget(&mut self) {
+        let strips = self.row_ends.last().copied().unwrap_or(0) as usize;
+        self.colours.truncate(strips);
+        self.strip_ends.truncate(strips + 1);
+        self.xy.truncate(2 * self.strip_ends[strips] as usize);
+    }
+
     /// Takes back the last row where it belongs to the same step, because a newer state replaces
     /// it.
     pub fn drop_row_of(&mut self, step: i64) {
@@ -99,10 +107,7 @@ impl Lines {
         }
         self.times.pop();
         self.row_ends.pop();
-        let strips = self.row_ends.last().copied().unwrap_or(0) as usize;
-        self.colours.truncate(strips);
-        self.strip_ends.truncate(strips + 1);
-        self.xy.truncate(2 * self.strip_ends[strips] as usize);
+        self.forget();
         // What the row before showed may have been sent already: an empty row wipes it for certain.
         self.shows_any = true;
     }
@@ -112,8 +117,9 @@ impl Lines {
         self.xy.len() * 4 + self.colours.len() * 8 + self.times.len() * 48
     }
 
-    /// Sends what is held.
+    /// Sends all rows that were ended.
     pub fn send(&mut self, stream: &RecordingStream) -> Result<(), InstrumentError> {
+        self.forget();
         if self.times.len() == 0 {
             return Ok(());
         }

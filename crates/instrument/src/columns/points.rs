@@ -67,13 +67,21 @@ impl Points {
         }
     }
 
+    /// Takes back what was added to the row being written.
+    pub fn forget(&mut self) {
+        let points = self.row_ends.last().copied().unwrap_or(0) as usize;
+        self.colours.truncate(points);
+        self.xy.truncate(2 * points);
+    }
+
     /// Size of what is held, bytes.
     pub fn held_bytes(&self) -> usize {
         self.xy.len() * 6 + self.times.len() * 48
     }
 
-    /// Sends what is held.
+    /// Sends all rows that were ended.
     pub fn send(&mut self, stream: &RecordingStream) -> Result<(), InstrumentError> {
+        self.forget();
         if self.times.len() == 0 {
             return Ok(());
         }

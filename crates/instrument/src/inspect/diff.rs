@@ -40,7 +40,9 @@ fn rows(path: &Path) -> Result<Rows, InstrumentError> {
         }
         let mut timelines: Vec<_> = chunk.timelines().iter().collect();
         timelines.sort_by_key(|(name, _)| name.to_string());
-        for column in chunk.components().values() {
+        let mut columns: Vec<_> = chunk.components().values().collect();
+        columns.sort_by_key(|column| column.descriptor.component.to_string());
+        for column in columns {
             let component = column.descriptor.component.to_string();
             let list = &column.list_array;
             let rows = all.entry((entity.clone(), component)).or_default();

@@ -159,7 +159,9 @@ impl Tally {
         entity.bytes += bytes;
         let components = chunk.components_identifiers().map(|component| component.to_string());
         entity.components.extend(components);
-        for (name, times) in chunk.timelines().iter() {
+        let mut timelines: Vec<_> = chunk.timelines().iter().collect();
+        timelines.sort_by_key(|(name, _)| name.to_string());
+        for (name, times) in timelines {
             let kind = match times.timeline().typ() {
                 rerun::time::TimeType::Sequence => "sequence",
                 rerun::time::TimeType::DurationNs => "duration_ns",

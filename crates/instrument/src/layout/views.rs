@@ -159,6 +159,7 @@ fn side(layout: &mut Layout<'_>, options: &RecordingOptions) -> RecordingStreamR
         plot(layout, "volumes in scope", &["volumes_in_scope"])?,
         plot(layout, "distance, m", &["distance_m"])?,
         plot(layout, "bumps, collisions", &["bumps", "collisions"])?,
+        plot(layout, "odometry error, m", &["odometry_error_m"])?,
     ];
     let more = layout.container(ContainerKind::Tabs, &more, &[])?;
     let mut parts = vec![texts, coverage, more];

@@ -163,7 +163,6 @@ impl Belief {
         &mut self,
         grid: &GridMap,
         changed: Option<&[(maps2d::grid::Cell, CellState, CellState)]>,
-        now: &Now,
     ) {
         let path = &self.cells_path;
         let cells = self.cells.get_or_insert_with(|| {
@@ -198,10 +197,10 @@ impl Belief {
                 }
             }
         }
+        self.frontier_cells.forget();
         for cell in grid.frontier_cells() {
             self.frontier_cells.point(&grid.cells().centre(cell), palette::FRONTIER);
         }
-        self.frontier_cells.end_row(now);
     }
 
     /// Ends the step: where the robot is believed, and where the belief lies in truth.
@@ -210,6 +209,7 @@ impl Belief {
         belief_from_body: &Se2,
         belief_from_eye: &Se2,
         world_from_belief: Option<&Se2>,
+        draw_cells: bool,
         now: &Now,
     ) {
         super::draw_robot(&mut self.robot, belief_from_body);
@@ -223,15 +223,19 @@ impl Belief {
         }
         if let Some(cells) = &mut self.cells {
             // What was new in the step before is not new any more.
+            self.cells_now.sort_unstable();
             for (column, row) in self.fresh_cells.drain(..) {
-                if !self.cells_now.contains(&(column, row))
+                if self.cells_now.binary_search(&(column, row)).is_err()
                     && cells.get(column, row) == palette::CELL_CHANGED
                 {
                     cells.set(column, row, palette::CELL_FREE);
                 }
             }
             std::mem::swap(&mut self.fresh_cells, &mut self.cells_now);
-            cells.end_row(now);
+            if draw_cells {
+                cells.end_row(now);
+                self.frontier_cells.end_row(now);
+            }
         }
     }
 

@@ -95,6 +95,11 @@ impl Graph {
         self.route.strip(way, palette::ROUTE);
     }
 
+    /// Leaves the step out; what was added is drawn with the next one that is not.
+    pub fn skip_step(&mut self) {
+        self.route.forget();
+    }
+
     /// Ends the step.
     pub fn end_step(&mut self, odom_from_body: &pose::Se2, now: &Now) {
         self.vertices.end_row(now);

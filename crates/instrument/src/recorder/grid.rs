@@ -18,9 +18,9 @@ impl Probe<GridEvent<'_>> for Recorder {
         let now = inner.now;
         match event {
             GridEvent::ScanApplied { changed, grid } => {
-                inner.belief.grid(grid, Some(changed), &now);
+                inner.belief.grid(grid, Some(changed));
             }
-            GridEvent::Rebuilt { grid, .. } => inner.belief.grid(grid, None, &now),
+            GridEvent::Rebuilt { grid, .. } => inner.belief.grid(grid, None),
         }
         if !inner.full(Family::Grid) {
             return;

@@ -49,6 +49,14 @@ impl Planner {
         self.given_up.point(&belief_from_body.transform(goal_in_body), palette::GIVEN_UP);
     }
 
+    /// Leaves the step out.
+    pub fn skip_step(&mut self) {
+        self.candidates.forget();
+        self.goal.forget();
+        self.way.forget();
+        self.given_up.forget();
+    }
+
     /// Ends the step.
     pub fn end_step(&mut self, now: &Now) {
         self.candidates.end_row(now);

@@ -220,13 +220,23 @@ impl Inner {
             rotation: self.world_from_start.rotation.inverse(),
             translation: belief_from_vertex.translation,
         };
-        self.belief.end_step(&belief_from_body, &belief_from_eye, world_from_belief.as_ref(), &now);
+        self.belief.end_step(
+            &belief_from_body,
+            &belief_from_eye,
+            world_from_belief.as_ref(),
+            self.takes(Family::Grid),
+            &now,
+        );
         let by_odometry = self.places.by_odometry(self.standing.vertex);
         if self.takes(Family::PoseGraph) {
             self.graph.end_step(&(by_odometry * self.standing.vertex_from_body), &now);
+        } else {
+            self.graph.skip_step();
         }
         if self.takes(Family::Planner) {
             self.planner.end_step(&now);
+        } else {
+            self.planner.skip_step();
         }
         if let Some(witness) = end.witness {
             self.truth.step(witness, end.newly_seen);
@@ -238,6 +248,10 @@ impl Inner {
             self.plot("distance_m", end.distance_m);
             self.plot("volumes_in_scope", self.belief.volumes_in_scope as f64);
             self.plot("place_edges", self.graph.place_edges as f64);
+            if let Some(witness) = end.witness {
+                self.plot("bumps", witness.tally().bumps as f64);
+                self.plot("collisions", witness.tally().collisions as f64);
+            }
             for (name, number) in end.numbers {
                 self.plot(name, *number);
             }

@@ -1,5 +1,7 @@
 //! One simulated run, with whoever listens.
 
+#![allow(dead_code, reason = "no test uses all of it")]
+
 use std::path::Path;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -30,7 +32,7 @@ pub fn options(path: &Path, level: Level, maps: &[&str], world: &World2d) -> Rec
         config: "name = \"example\"".to_owned(),
         bounds_in_world: world.bounds(),
         sight_m: 11.0,
-        follow: std::env::var_os("FOLLOW").is_some(),
+        follow: false,
     }
 }
 
@@ -60,8 +62,6 @@ pub fn explore(
             ("coverage", witness.coverage().fraction()),
             ("frontier_open_m", report.frontier.open_m),
             ("frontier_ignored_m", report.frontier.ignored_m),
-            ("bumps", tally.bumps as f64),
-            ("collisions", tally.collisions as f64),
         ];
         let end = StepEnd {
             standing: report.standing,
