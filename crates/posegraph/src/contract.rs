@@ -1,7 +1,8 @@
 //! Contraction: vertices leave the skeleton, and come back, without changing the ways of others.
 //!
 //! A vertex keeps the links that it had when it left. They lead to vertices that leave later or
-//! never, so following them, shortest first, finds every shortest way out of what has left.
+//! never. As in contraction hierarchies, every shortest way between two vertices climbs along such
+//! links from both of its ends to where they meet, among what has left or among what has not.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -68,15 +69,42 @@ impl Skeleton {
         if !self.is_retired(vertex) {
             return false;
         }
-        let ways = self.ways_out(vertex);
+        let ways = self.ways_from(vertex);
         self.nodes[vertex].spare = Vec::new();
         self.retired -= 1;
-        for way in ways {
-            if !self.is_witnessed(vertex, way.to, way.length_m, scratch) {
-                self.connect(vertex, way);
+        self.join(vertex, ways, scratch);
+        true
+    }
+
+    /// Joins a vertex that is not retired with one that is and stays so.
+    pub(crate) fn join_retired(&mut self, from: VertexId, link: &Link, scratch: &mut ScopeScratch) {
+        let ways = self.ways_from(link.to).iter().map(|way| link.then(way)).collect();
+        self.join(from, ways, scratch);
+    }
+
+    /// Links a vertex with the ends of these ways, shortest first; retired ends remember the way
+    /// to it, because from now on it may be on their shortest way to others.
+    fn join(&mut self, from: VertexId, ways: Vec<Link>, scratch: &mut ScopeScratch) {
+        for way in ways.into_iter().filter(|way| way.to != from) {
+            if self.is_retired(way.to) {
+                self.remember(way.to, way.back_to(from));
+            } else if !self.is_witnessed(from, way.to, way.length_m, scratch) {
+                self.replace(from, way);
             }
         }
-        true
+    }
+
+    /// Adds a link to those of a retired vertex; of two to the same vertex the shorter stays.
+    fn remember(&mut self, retired: VertexId, link: Link) {
+        let spare = &mut self.nodes[retired].spare;
+        if let Some(known) = spare.iter().position(|known| known.to == link.to) {
+            if spare[known].length_m <= link.length_m {
+                return;
+            }
+            spare.remove(known);
+        }
+        let at = spare.partition_point(|known| Link::by_length(known, &link).is_lt());
+        spare.insert(at, link);
     }
 
     /// Whether there is another way that makes one of this length superfluous.
@@ -105,24 +133,24 @@ impl Skeleton {
         })
     }
 
-    /// The shortest ways from a retired vertex through retired vertices to those that are not,
-    /// shortest first: all that are no longer than the horizon, and the shortest at least.
-    fn ways_out(&self, vertex: VertexId) -> Vec<Link> {
+    /// The shortest ways from a retired vertex, through retired vertices, to retired ones and to
+    /// those where the retired end, shortest first: all that are no longer than the horizon, and
+    /// the shortest of the latter at least.
+    fn ways_from(&self, vertex: VertexId) -> Vec<Link> {
         let mut best: BTreeMap<VertexId, Link> = BTreeMap::new();
         // Bits of lengths that are not negative are ordered as the lengths are.
         let mut open: BTreeSet<(u64, VertexId)> = BTreeSet::new();
         best.insert(vertex, Link::nowhere(vertex));
         open.insert((0, vertex));
         let mut ways: Vec<Link> = Vec::new();
+        let mut is_out = false;
         while let Some((_, at)) = open.pop_first() {
             let here = best[&at].clone();
-            if here.length_m > self.horizon_m && !ways.is_empty() {
+            if here.length_m > self.horizon_m && is_out {
                 break;
             }
-            if !self.is_retired(at) {
-                ways.push(here);
-                continue;
-            }
+            // Nothing is behind a vertex that is not retired: other ways lead on from there.
+            is_out |= !self.is_retired(at);
             for link in &self.nodes[at].spare {
                 let length_m = here.length_m + link.length_m;
                 match best.get(&link.to) {
@@ -133,6 +161,7 @@ impl Skeleton {
                 open.insert((length_m.to_bits(), link.to));
                 best.insert(link.to, here.then(link));
             }
+            ways.push(here);
         }
         ways
     }

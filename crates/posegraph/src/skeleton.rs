@@ -97,8 +97,9 @@ impl Link {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Node {
     pub links: Vec<Link>,
-    /// The links that the vertex had when it was retired, shortest first; none while it is not.
-    /// They lead to vertices that were not retired then.
+    /// The links that the vertex had when it was retired, and those to vertices that joined later,
+    /// shortest first; none while it is not retired. They lead to vertices that were retired later,
+    /// or not at all.
     pub spare: Vec<Link>,
 }
 
@@ -183,10 +184,9 @@ impl Skeleton {
     /// Adds a measured edge. Ends that are retired stay so: the ways over the edge that are the
     /// shortest, and no longer than the horizon, become links between other vertices.
     ///
-    /// Cost: constant for ends that are not retired; else that of [`restore`](Self::restore) and
-    /// [`retire`](Self::retire).
+    /// Cost: constant for ends that are not retired; else that of [`restore`](Self::restore), and for
+    /// two ends that are, of [`retire`](Self::retire) besides.
     pub fn add_edge(&mut self, id: EdgeId, edge: &Edge, scratch: &mut ScopeScratch) {
-        let hidden = [edge.a, edge.b].map(|end| self.restore(end, scratch));
         let is_odometry = edge.kind == EdgeKind::Odometry;
         let link = Link {
             to: edge.b,
@@ -195,11 +195,16 @@ impl Skeleton {
             odometry_m: if is_odometry { edge.length_m } else { 0.0 },
             via: Via::Edge(id),
         };
-        self.connect(edge.a, link);
-        for (end, hidden) in [edge.a, edge.b].into_iter().zip(hidden) {
+        if self.is_retired(edge.b) {
+            let hidden = self.restore(edge.a, scratch);
+            self.join_retired(edge.a, &link, scratch);
             if hidden {
-                self.retire(end, scratch);
+                self.retire(edge.a, scratch);
             }
+        } else if self.is_retired(edge.a) {
+            self.join_retired(edge.b, &link.back_to(edge.a), scratch);
+        } else {
+            self.connect(edge.a, link);
         }
     }
 

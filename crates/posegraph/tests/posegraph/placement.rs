@@ -1,0 +1,124 @@
+//! Placement along shortest paths ([ISRR19] 4.2) and the scope (4.3).
+
+use posegraph::{Scope, ScopeScratch};
+use probe::VertexId;
+use proptest::prelude::*;
+
+use super::config;
+use super::graphs::{all_ways, graphs, near, same_pose, skeleton_of, walk};
+
+const SEEDS: &str = "proptest-regressions/placement.txt";
+
+proptest! {
+    #![proptest_config(config(400, SEEDS))]
+
+    /// Who is in a scope, how far, and where: what brute force finds along the shortest path.
+    #[test]
+    fn a_scope_is_what_brute_force_finds(
+        drawn in graphs(1..16),
+        root in any::<prop::sample::Index>(),
+        radius_m in prop_oneof![3 => 0.0..60.0_f64, 1 => Just(f64::INFINITY), 1 => Just(0.0)],
+    ) {
+        let graph = drawn.graph();
+        let skeleton = skeleton_of(&graph, 20.0);
+        let root = root.index(drawn.places.len());
+        let (mut scope, mut scratch) = (Scope::default(), ScopeScratch::default());
+        // The second time in the same memory gives the same.
+        scratch.place(&skeleton, VertexId(0), 1e9, &mut scope);
+        scratch.place(&skeleton, VertexId(root as u32), radius_m, &mut scope);
+        prop_assert_eq!(scope.root(), Some(VertexId(root as u32)));
+        prop_assert!(scope.placed().is_sorted_by(|a, b| a.distance_m <= b.distance_m));
+        let ways = all_ways(&graph);
+        for (vertex, way) in ways[root].iter().enumerate() {
+            let mut rows = scope.placed().iter().filter(|row| row.vertex.0 as usize == vertex);
+            let row = rows.next();
+            prop_assert!(rows.next().is_none(), "v{} twice", vertex);
+            let Some(way) = way.filter(|way| way.length_m < radius_m + 1e-9) else {
+                prop_assert!(row.is_none(), "v{} is out of reach", vertex);
+                continue;
+            };
+            if way.length_m > radius_m - 1e-9 && radius_m > 0.0 {
+                continue;
+            }
+            prop_assert!(row.is_some(), "v{} is {} m away", vertex, way.length_m);
+            let row = row.unwrap();
+            prop_assert!(near(row.distance_m, way.length_m));
+            prop_assert!(near(row.odometry_m, way.odometry_m));
+            prop_assert!(same_pose(&row.root_from_vertex, &way.from_to), "{:?} {:?}", row, way);
+        }
+    }
+
+    /// The path between two rows leads from one to the other, walks no edge twice, and adds up to
+    /// how they are placed.
+    #[test]
+    fn a_path_between_rows_is_a_way(drawn in graphs(2..12), radius_m in 5.0..80.0_f64) {
+        let graph = drawn.graph();
+        let skeleton = skeleton_of(&graph, 20.0);
+        let (mut scope, mut scratch) = (Scope::default(), ScopeScratch::default());
+        scratch.place(&skeleton, VertexId(0), radius_m, &mut scope);
+        let rows = scope.placed();
+        for (a, row_a) in rows.iter().enumerate() {
+            for (b, row_b) in rows.iter().enumerate() {
+                let path = scope.path_between(&skeleton, a, b);
+                let walked = walk(&graph, row_a.vertex, &path);
+                prop_assert!(walked.is_some(), "{:?} is no way from {}", path, row_a.vertex);
+                let (end, way) = walked.unwrap();
+                prop_assert_eq!(end, row_b.vertex);
+                let a_from_b = row_a.root_from_vertex.inverse_mul(&row_b.root_from_vertex);
+                prop_assert!(same_pose(&way.from_to, &a_from_b));
+                let mut once = path.clone();
+                once.sort_unstable();
+                once.dedup();
+                prop_assert_eq!(once.len(), path.len(), "an edge is walked twice");
+                prop_assert!(a != b || path.is_empty());
+            }
+        }
+    }
+
+    #[test]
+    fn the_nearest_goal_is_the_nearest(
+        drawn in graphs(2..14),
+        goals in prop::collection::vec(any::<bool>(), 14),
+        limit_m in prop_oneof![0.0..50.0_f64, Just(f64::INFINITY)],
+    ) {
+        let graph = drawn.graph();
+        let skeleton = skeleton_of(&graph, 20.0);
+        let ways = all_ways(&graph);
+        let mut scratch = ScopeScratch::default();
+        let goal = |vertex: VertexId| goals[vertex.0 as usize];
+        let found = scratch.way_to_nearest(&skeleton, VertexId(0), limit_m, goal);
+        let lengths = ways[0].iter().enumerate().filter(|(v, _)| goals[*v]);
+        let nearest_m = lengths.filter_map(|(_, way)| Some(way.as_ref()?.length_m)).reduce(f64::min);
+        match nearest_m {
+            Some(nearest_m) if nearest_m < limit_m - 1e-9 => {
+                prop_assert!(found.is_some());
+                let legs = found.unwrap();
+                prop_assert!(near(legs.iter().map(|leg| leg.1).sum(), nearest_m));
+                let end = legs.last().map_or(VertexId(0), |leg| leg.0);
+                prop_assert!(goals[end.0 as usize]);
+            }
+            Some(nearest_m) if nearest_m < limit_m + 1e-9 => {}
+            _ => prop_assert_eq!(found, None),
+        }
+        for (vertex, way) in ways[0].iter().enumerate() {
+            let there = VertexId(vertex as u32);
+            let told = scratch.distance_within(&skeleton, VertexId(0), there, limit_m);
+            match way {
+                Some(way) if way.length_m < limit_m - 1e-9 => {
+                    prop_assert!(told.is_some_and(|told| near(told, way.length_m)));
+                }
+                Some(way) if way.length_m < limit_m + 1e-9 => {}
+                _ => prop_assert_eq!(told, None),
+            }
+        }
+    }
+}
+
+#[test]
+fn a_root_that_is_not_there_stands_alone() {
+    let (mut scope, mut scratch) = (Scope::default(), ScopeScratch::default());
+    assert_eq!(scope.root(), None);
+    let skeleton = posegraph::Skeleton::new(10.0);
+    scratch.place(&skeleton, VertexId(3), 10.0, &mut scope);
+    assert_eq!((scope.root(), scope.placed().len()), (Some(VertexId(3)), 1));
+}
