@@ -1,8 +1,7 @@
 //! Contraction: vertices leave the skeleton, and come back, without changing the ways of others.
 //!
 //! A vertex keeps the links that it had when it left. They lead to vertices that leave later or
-//! never. As in contraction hierarchies, every shortest way between two vertices climbs along such
-//! links from both of its ends to where they meet, among what has left or among what has not.
+//! never, so following them leads out of what has left.
 
 use std::collections::{BTreeMap, BTreeSet};
 
@@ -12,6 +11,9 @@ use crate::{Link, ScopeScratch, Skeleton};
 
 /// Ways longer than the horizon are dropped where another way is at most this many times as long.
 const DETOUR: f64 = 1.5;
+
+/// Over a retired vertex a new edge is led on to this many vertices.
+const WAYS_OUT: usize = 4;
 
 impl Skeleton {
     /// Contracts a vertex: afterwards it has no links, and its nearest neighbour stands for it.
@@ -59,52 +61,36 @@ impl Skeleton {
         true
     }
 
-    /// Takes a retired vertex in again, with links to all around it that it needs to be as far from
-    /// every other vertex as it is along the measured edges, up to the horizon.
+    /// Takes a retired vertex in again, with links to the nearest vertices around it.
     ///
-    /// Ways between other vertices stay what they are. Returns whether the vertex was retired.
+    /// Ways between other vertices stay what they are; its own may be longer than they were.
+    /// Returns whether the vertex was retired.
     ///
-    /// Cost: a search through the retired vertices within the horizon.
+    /// Cost: a search through retired vertices for the nearest that are not.
     pub fn restore(&mut self, vertex: VertexId, scratch: &mut ScopeScratch) -> bool {
         if !self.is_retired(vertex) {
             return false;
         }
-        let ways = self.ways_from(vertex);
+        let ways = self.ways_out(vertex);
         self.nodes[vertex].spare = Vec::new();
         self.retired -= 1;
         self.join(vertex, ways, scratch);
         true
     }
 
-    /// Joins a vertex that is not retired with one that is and stays so.
+    /// Joins a vertex that is not retired with the nearest around one that is and stays so.
     pub(crate) fn join_retired(&mut self, from: VertexId, link: &Link, scratch: &mut ScopeScratch) {
-        let ways = self.ways_from(link.to).iter().map(|way| link.then(way)).collect();
+        let ways = self.ways_out(link.to).iter().map(|way| link.then(way)).collect();
         self.join(from, ways, scratch);
     }
 
-    /// Links a vertex with the ends of these ways, shortest first; retired ends remember the way
-    /// to it, because from now on it may be on their shortest way to others.
+    /// Links a vertex with the ends of these ways where there is no other way, shortest first.
     fn join(&mut self, from: VertexId, ways: Vec<Link>, scratch: &mut ScopeScratch) {
         for way in ways.into_iter().filter(|way| way.to != from) {
-            if self.is_retired(way.to) {
-                self.remember(way.to, way.back_to(from));
-            } else if !self.is_witnessed(from, way.to, way.length_m, scratch) {
+            if !self.is_witnessed(from, way.to, way.length_m, scratch) {
                 self.replace(from, way);
             }
         }
-    }
-
-    /// Adds a link to those of a retired vertex; of two to the same vertex the shorter stays.
-    fn remember(&mut self, retired: VertexId, link: Link) {
-        let spare = &mut self.nodes[retired].spare;
-        if let Some(known) = spare.iter().position(|known| known.to == link.to) {
-            if spare[known].length_m <= link.length_m {
-                return;
-            }
-            spare.remove(known);
-        }
-        let at = spare.partition_point(|known| Link::by_length(known, &link).is_lt());
-        spare.insert(at, link);
     }
 
     /// Whether there is another way that makes one of this length superfluous.
@@ -133,37 +119,46 @@ impl Skeleton {
         })
     }
 
-    /// The shortest ways from a retired vertex, through retired vertices, to retired ones and to
-    /// those where the retired end, shortest first: all that are no longer than the horizon, and
-    /// the shortest of the latter at least.
-    fn ways_from(&self, vertex: VertexId) -> Vec<Link> {
-        let mut best: BTreeMap<VertexId, Link> = BTreeMap::new();
+    /// The shortest ways from a retired vertex through retired vertices to those that are not,
+    /// shortest first: a few, no longer than the horizon, and the shortest at least.
+    fn ways_out(&self, vertex: VertexId) -> Vec<Link> {
+        // For each vertex met: how far, and by which link of which retired vertex.
+        let mut best: BTreeMap<VertexId, (f64, Option<(VertexId, usize)>)> = BTreeMap::new();
         // Bits of lengths that are not negative are ordered as the lengths are.
         let mut open: BTreeSet<(u64, VertexId)> = BTreeSet::new();
-        best.insert(vertex, Link::nowhere(vertex));
+        best.insert(vertex, (0.0, None));
         open.insert((0, vertex));
-        let mut ways: Vec<Link> = Vec::new();
-        let mut is_out = false;
+        let mut out: Vec<VertexId> = Vec::new();
         while let Some((_, at)) = open.pop_first() {
-            let here = best[&at].clone();
-            if here.length_m > self.horizon_m && is_out {
+            let far_m = best[&at].0;
+            if out.len() == WAYS_OUT || (far_m > self.horizon_m && !out.is_empty()) {
                 break;
             }
-            // Nothing is behind a vertex that is not retired: other ways lead on from there.
-            is_out |= !self.is_retired(at);
-            for link in &self.nodes[at].spare {
-                let length_m = here.length_m + link.length_m;
+            if !self.is_retired(at) {
+                out.push(at);
+                continue;
+            }
+            for (i, link) in self.nodes[at].spare.iter().enumerate() {
+                let length_m = far_m + link.length_m;
                 match best.get(&link.to) {
-                    Some(known) if known.length_m <= length_m => continue,
-                    Some(known) => open.remove(&(known.length_m.to_bits(), link.to)),
+                    Some(known) if known.0 <= length_m => continue,
+                    Some(known) => open.remove(&(known.0.to_bits(), link.to)),
                     None => false,
                 };
                 open.insert((length_m.to_bits(), link.to));
-                best.insert(link.to, here.then(link));
+                best.insert(link.to, (length_m, Some((at, i))));
             }
-            ways.push(here);
         }
-        ways
+        let way_to = |end: VertexId| {
+            let mut steps: Vec<&Link> = Vec::new();
+            let mut at = end;
+            while let Some((before, i)) = best[&at].1 {
+                steps.push(&self.nodes[before].spare[i]);
+                at = before;
+            }
+            steps.into_iter().rev().fold(Link::nowhere(vertex), |way, step| way.then(step))
+        };
+        out.into_iter().map(way_to).collect()
     }
 
     /// Adds a link and drops longer ones between the same two vertices.

@@ -97,9 +97,8 @@ impl Link {
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Node {
     pub links: Vec<Link>,
-    /// The links that the vertex had when it was retired, and those to vertices that joined later,
-    /// shortest first; none while it is not retired. They lead to vertices that were retired later,
-    /// or not at all.
+    /// The links that the vertex had when it was retired, shortest first; none while it is not.
+    /// They lead to vertices that were retired later, or not at all.
     pub spare: Vec<Link>,
 }
 
@@ -107,9 +106,10 @@ pub(crate) struct Node {
 ///
 /// Vertices can be [retired](Self::retire): they are contracted, and every way through them that is
 /// the shortest and no longer than the horizon lives on as one link. Hence shortest-path distances
-/// and placements up to the horizon between the vertices that remain are what they were, whatever is
-/// retired, [restored](Self::restore) or [added](Self::add_edge) in any order. Farther ways may
-/// become longer, but nothing that was connected comes apart.
+/// and placements up to the horizon between the vertices that remain are what they were, give or
+/// take the [stretch](Self::with_stretch). Farther ways may become longer, and so may ways to what
+/// [comes back](Self::restore) and over edges that come to retired vertices later; but no way
+/// becomes shorter than it is, and nothing that was connected comes apart.
 #[derive(Clone, Debug)]
 pub struct Skeleton {
     pub(crate) nodes: IdVec<VertexId, Node>,
@@ -181,8 +181,8 @@ impl Skeleton {
         (at, at_from_vertex)
     }
 
-    /// Adds a measured edge. Ends that are retired stay so: the ways over the edge that are the
-    /// shortest, and no longer than the horizon, become links between other vertices.
+    /// Adds a measured edge. Ends that are retired stay so: over a retired end the edge is led on to
+    /// the nearest few vertices that are not, where no other way leads there.
     ///
     /// Cost: constant for ends that are not retired; else that of [`restore`](Self::restore), and for
     /// two ends that are, of [`retire`](Self::retire) besides.
