@@ -16,6 +16,9 @@ use sensing::Robot;
 
 use crate::{Ending, ExploreProbe, Explorer, GiveUp, PlannerEvent, RapidParams, State};
 
+/// Moves towards one goal after which it cannot be far away any more.
+const MOST_MOVES: u32 = 12;
+
 /// What the policy remembers between steps.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Memory {
@@ -23,14 +26,36 @@ pub(crate) struct Memory {
     pub way: Vec<(VertexId, f64)>,
     /// Scans since the robot came to this place.
     pub turns_here: u32,
-    /// The goal of the last move in the body frame of now, and moves made towards it.
-    pub pursuit: Option<(Point2, u32)>,
+    /// The goal of the last move.
+    pub pursuit: Option<Pursuit>,
     /// How often the robot was sent to a vertex, and what it had left when it was sent last.
     pub sent: BTreeMap<VertexId, (u32, f64)>,
     /// A vertex that the robot was sent to in vain: its goals are given up on arrival.
     pub in_vain: Option<VertexId>,
     /// The frontier that a "normal point" serves, in the body frame of now, until it is looked at.
     pub behind: Option<Behind>,
+}
+
+/// A goal that the robot moves towards.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Pursuit {
+    /// Where it is, in the body frame of now.
+    goal_in_body: Point2,
+    /// Moves made towards it.
+    moves: u32,
+    /// The vertex that it was chosen at.
+    chosen_at: VertexId,
+}
+
+/// How a goal is approached; the first that the clearance allows is taken.
+#[derive(Clone, Copy, Debug)]
+enum Approach {
+    /// Straight to it.
+    Straight,
+    /// By a point before it, on its normal ([Zie18] 2.9.3).
+    NormalPoint,
+    /// By a point from which it can be reached.
+    Detour,
 }
 
 /// A frontier that is approached by a point before it.
@@ -93,7 +118,7 @@ impl Explorer {
                 None => break,
             }
         }
-        if !self.look_around(robot, &params, probe) {
+        if !self.look_around(robot, &params, probe) && !self.go_on(robot, &params, probe) {
             self.deliberate(robot, &params, probe);
         }
     }
@@ -188,7 +213,7 @@ impl Explorer {
             && let Some(moved) = self.step_to(robot, point, params, probe)
         {
             let behind = behind.moved(&moved);
-            self.rapid.behind = (behind.moves < 12).then_some(behind);
+            self.rapid.behind = (behind.moves < MOST_MOVES).then_some(behind);
             return true;
         }
         let goal = behind.goal_in_body;
@@ -201,7 +226,7 @@ impl Explorer {
             self.rapid.behind = Some(Behind { point_in_body: None, ..behind.moved(&turned) });
             return true;
         }
-        if behind.moves < 12
+        if behind.moves < MOST_MOVES
             && goal.coords.norm() >= params.arrival_m
             && let Some(moved) = self.step_to(robot, goal, params, probe)
         {
@@ -277,21 +302,50 @@ impl Explorer {
             let turned = Se2::from_angle(if must_turn { motion.heading_rad } else { 0.0 });
             self.rapid.behind = Some(behind.moved(&(turned * Se2::new(step_m, 0.0, 0.0))));
         }
-        let ahead = Point2::new(distance_m - step_m, 0.0);
-        let moves = self.rapid.pursuit.map_or(0, |(_, moves)| moves);
-        self.rapid.pursuit = Some((ahead, moves + 1));
+        let before = self.rapid.pursuit;
+        self.rapid.pursuit = Some(Pursuit {
+            goal_in_body: Point2::new(distance_m - step_m, 0.0),
+            moves: before.map_or(0, |pursuit| pursuit.moves) + 1,
+            chosen_at: before.map_or(self.standing.vertex, |pursuit| pursuit.chosen_at),
+        });
         self.forward(robot, step_m, probe);
+        true
+    }
+
+    /// Goes on towards the goal of the last move, though nothing is in view any more.
+    ///
+    /// What the robot saw of a frontier from farther off may show more of the unknown than what it
+    /// sees from nearer; then only the vertex that it came from has frontier left, and going back
+    /// there would lead here again.
+    fn go_on(
+        &mut self,
+        robot: &mut dyn Robot,
+        params: &RapidParams,
+        probe: &mut dyn ExploreProbe,
+    ) -> bool {
+        let Some(pursuit) = self.rapid.pursuit else { return false };
+        let goal = pursuit.goal_in_body;
+        let left = self.maps[0].frontier_at(pursuit.chosen_at) > 0.0;
+        if !left || pursuit.moves > MOST_MOVES || goal.coords.norm() < params.arrival_m {
+            return false;
+        }
+        let Some(moved) = self.step_to(robot, goal, params, probe) else { return false };
+        self.rapid.pursuit = Some(Pursuit {
+            goal_in_body: moved.inverse_transform(&goal),
+            moves: pursuit.moves + 1,
+            ..pursuit
+        });
         true
     }
 
     /// Whether the robot has moved towards this goal for longer than it can be far away.
     fn is_chasing(&mut self, motion: &Motion, params: &RapidParams) -> bool {
-        let Some((goal, moves)) = self.rapid.pursuit else { return false };
-        let same = (goal - motion.to_in_body).norm() < params.give_up_radius_m;
+        let Some(pursuit) = self.rapid.pursuit else { return false };
+        let same = (pursuit.goal_in_body - motion.to_in_body).norm() < params.give_up_radius_m;
         if !same {
             self.rapid.pursuit = None;
         }
-        same && moves > 12
+        same && pursuit.moves > MOST_MOVES
     }
 
     fn give_up(
@@ -308,7 +362,8 @@ impl Explorer {
             why,
         });
         let radius_m = params.give_up_radius_m;
-        self.maps[0].give_up(&self.standing, goal_in_body, radius_m, &mut *probe);
+        let everywhere = why == GiveUp::NothingNew;
+        self.maps[0].give_up(&self.standing, goal_in_body, radius_m, everywhere, &mut *probe);
     }
 
     /// The allowed motion with the least change of heading; greater clearances come first, and at
@@ -321,14 +376,20 @@ impl Explorer {
     ) -> Option<Motion> {
         let mut scored: Vec<(Candidate, f64)> = Vec::new();
         for (level, &clearance_m) in params.clearances_m.iter().enumerate() {
-            for by_normal_point in [false, true] {
+            for approach in [Approach::Straight, Approach::NormalPoint, Approach::Detour] {
                 scored.clear();
                 let mut best: Option<Motion> = None;
                 for (i, candidate) in candidates.iter().enumerate() {
-                    let motion = if by_normal_point {
-                        self.motion_by_normal_point(i, candidate, clearance_m, level, params)
-                    } else {
-                        self.straight_motion(i, candidate, clearance_m, level, params)
+                    let motion = match approach {
+                        Approach::Straight => {
+                            self.straight_motion(i, candidate, clearance_m, level, params)
+                        }
+                        Approach::NormalPoint => {
+                            self.motion_by_normal_point(i, candidate, clearance_m, level, params)
+                        }
+                        Approach::Detour => {
+                            self.motion_by_detour(i, candidate, clearance_m, level, params)
+                        }
                     };
                     let score = motion.map_or(f64::INFINITY, |motion| motion.heading_rad.abs());
                     scored.push((*candidate, score));
@@ -386,6 +447,25 @@ impl Explorer {
             }
             let motion = self.allowed(candidate, point, clearance_m, level, params)?;
             Some(Motion { behind_in_body: Some(of.goals_in_body[0]), ..motion })
+        })
+    }
+
+    /// By a point from which the goal can be reached, where the robot stands too near to a corner.
+    fn motion_by_detour(
+        &mut self,
+        candidate: usize,
+        of: &Candidate,
+        clearance_m: f64,
+        level: usize,
+        params: &RapidParams,
+    ) -> Option<Motion> {
+        if of.turn_only {
+            return None;
+        }
+        of.goals_in_body.into_iter().find_map(|goal| {
+            let point = self.maps[0].detour(&self.standing, &goal, clearance_m)?;
+            let motion = self.allowed(candidate, point, clearance_m, level, params)?;
+            Some(Motion { behind_in_body: Some(goal), ..motion })
         })
     }
 

@@ -128,13 +128,27 @@ pub trait ExplorationMap {
     /// going on with.
     fn frontier_at(&self, vertex: VertexId) -> f64;
 
-    /// The robot got as near to the frontier at `goal_in_body` as it may and looked, or found no way
-    /// to it at all: whatever frontier is left within `radius_m` of it does not count from now on.
+    /// A point in view that keeps `clearance_m` from everything on the straight way to it and on the
+    /// straight way from it to `goal_in_body`; the one with the shortest way. For a goal round a
+    /// corner that the robot stands too near to.
+    fn detour(
+        &self,
+        standing: &Standing,
+        goal_in_body: &Point2,
+        clearance_m: f64,
+    ) -> Option<Point2>;
+
+    /// Frontier within `radius_m` of `goal_in_body` does not count from now on.
+    ///
+    /// With `everywhere` the robot got as near as it may, looked, and it is still there: that holds
+    /// for every volume nearby, now and later. Without, only no motion towards it is allowed from
+    /// here, and what other places see of it stays.
     fn give_up(
         &mut self,
         standing: &Standing,
         goal_in_body: &Point2,
         radius_m: f64,
+        everywhere: bool,
         probe: &mut dyn MapProbe,
     );
 

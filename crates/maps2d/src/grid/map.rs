@@ -161,6 +161,17 @@ impl ExplorationMap for GridMap {
         self.view.motion_clearance(&standing.vertex_from_body.transform(to_in_body))
     }
 
+    fn detour(
+        &self,
+        standing: &Standing,
+        goal_in_body: &Point2,
+        clearance_m: f64,
+    ) -> Option<Point2> {
+        let goal = standing.vertex_from_body.transform(goal_in_body);
+        let stop = self.view.detour(&goal, clearance_m)?;
+        Some(standing.vertex_from_body.inverse_transform(&stop))
+    }
+
     fn route(&mut self, standing: &Standing, clearance_m: f64) -> Option<Route> {
         self.way_over_free_cells(standing, clearance_m)
     }
@@ -175,6 +186,7 @@ impl ExplorationMap for GridMap {
         standing: &Standing,
         goal_in_body: &Point2,
         radius_m: f64,
+        _everywhere: bool,
         _probe: &mut dyn MapProbe,
     ) {
         self.give_up_near(standing, goal_in_body, radius_m);

@@ -92,12 +92,23 @@ impl RelativeMap {
         standing: &Standing,
         goal_in_body: &Point2,
         radius_m: f64,
+        everywhere: bool,
         probe: &mut dyn MapProbe,
     ) {
         let place = standing.vertex_from_body.transform(goal_in_body);
         let Some(state) = self.volumes[standing.vertex].as_deref_mut() else { return };
         state.given_up.push((place, radius_m));
-        self.compare_with_scope(standing.vertex, probe);
+        if everywhere {
+            self.compare_with_scope(standing.vertex, probe);
+            return;
+        }
+        self.take_scope(standing.vertex, probe);
+        self.work.pairs.clear();
+        self.work.pairs.push((0, 0));
+        self.consolidate(probe);
+        if let Some(state) = self.volumes[standing.vertex].as_deref_mut() {
+            state.given_up.pop();
+        }
     }
 }
 

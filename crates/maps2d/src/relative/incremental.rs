@@ -58,18 +58,16 @@ impl RelativeMap {
         self.take_scope(root, &mut probe::Off);
         let before = std::mem::take(&mut self.scope);
         let leaf = before.placed().len() == 1 && edges.len() == 1;
-        // Retired volumes are asked only where frontier that counts is left to ask about.
-        let asks = !leaf && before.placed().iter().any(|row| self.frontier_counts_at(row.vertex));
-        let before_in_full = self.full_scope_if(root, asks);
+        let before_in_full = self.full_scope_if(root, !leaf);
         for &id in edges {
             self.skeleton.add_edge(id, graph.edge(id), &mut self.scratch);
             self.full.add_edge(id, graph.edge(id), &mut self.scratch);
         }
         self.scope_is_fresh = false;
         self.take_scope(root, probe);
-        self.compare_across(&before, probe);
-        if let Some(before) = before_in_full {
-            self.ask_retired_across(root, &before, probe);
+        match before_in_full {
+            Some(before) => self.compare_across_in_full(root, &before, probe),
+            None => self.compare_across(&before, probe),
         }
         if hidden && self.volume(root).is_some_and(|state| state.retired) {
             self.skeleton.retire(root, &mut self.scratch);
@@ -107,10 +105,6 @@ impl RelativeMap {
         let apart = a.root_from_vertex.transform(&centre) - b.root_from_vertex.translation;
         let reach_m = radius_m + of_b.volume.radius_m() + self.params.wall_closing_m;
         apart.coords.norm_squared() <= reach_m * reach_m
-    }
-
-    fn frontier_counts_at(&self, vertex: VertexId) -> bool {
-        self.volume(vertex).is_some_and(|state| !state.retired && state.counts())
     }
 
     pub(super) fn is_active(&self, row: u32) -> bool {

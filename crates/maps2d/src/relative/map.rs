@@ -186,6 +186,18 @@ impl ExplorationMap for RelativeMap {
         self.motion_clearance(standing, to_in_body)
     }
 
+    fn detour(
+        &self,
+        standing: &Standing,
+        goal_in_body: &Point2,
+        clearance_m: f64,
+    ) -> Option<Point2> {
+        let here = &self.volume(standing.vertex)?.volume;
+        let goal = standing.vertex_from_body.transform(goal_in_body);
+        let stop = here.detour(&goal, clearance_m)?;
+        Some(standing.vertex_from_body.inverse_transform(&stop))
+    }
+
     fn route(&mut self, standing: &Standing, _clearance_m: f64) -> Option<Route> {
         self.way_to_frontier(standing)
     }
@@ -199,9 +211,10 @@ impl ExplorationMap for RelativeMap {
         standing: &Standing,
         goal_in_body: &Point2,
         radius_m: f64,
+        everywhere: bool,
         probe: &mut dyn MapProbe,
     ) {
-        self.give_up_near(standing, goal_in_body, radius_m, probe);
+        self.give_up_near(standing, goal_in_body, radius_m, everywhere, probe);
     }
 
     fn bytes(&self) -> usize {

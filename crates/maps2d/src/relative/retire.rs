@@ -30,6 +30,9 @@ use super::walls::spans_along_walls;
 use super::{Cause, Closing, ConsolidationEvent, RelativeMap, VolumeState};
 use crate::MapProbe;
 
+/// Of the vertices in a scope of the full graph only so many are asked, the nearest.
+const MOST_ASKED: usize = 400;
+
 impl RelativeMap {
     pub(super) fn retire_if_spent(&mut self, vertex: VertexId, probe: &mut dyn MapProbe) {
         if !self.params.retire || !self.is_spent(vertex) || self.is_missed(vertex) {
@@ -129,18 +132,23 @@ impl RelativeMap {
         }
     }
 
-    /// Compares a volume that still has frontier that counts with the retired ones in its scope.
+    /// After a volume was compared over the skeleton: compares over the full graph what that left
+    /// out, retired volumes and those over whose ways the skeleton has stretched, wherever there is
+    /// frontier that counts.
     pub(super) fn ask_retired_about(&mut self, root: VertexId, probe: &mut dyn MapProbe) {
-        let needed = self.volume(root).is_some_and(|state| !state.retired && state.counts());
-        if let Some(scope) = self.full_scope_if(root, needed) {
-            self.ask_retired(scope, probe, |_, _| true, true);
-        }
+        let Some(scope) = self.full_scope_if(root, true) else { return };
+        let mut asked: Vec<VertexId> = self.scope.placed().iter().map(|row| row.vertex).collect();
+        asked.sort_unstable();
+        self.compare_in_full(scope, probe, |map, a, b| {
+            let other = map.scope.placed()[if a == 0 { b } else { a } as usize].vertex;
+            let retired = map.volume(other).is_some_and(|state| state.retired);
+            (a == 0) != (b == 0) && (retired || asked.binary_search(&other).is_err())
+        });
     }
 
-    /// Compares volumes that still have frontier that counts with retired ones, where new edges at
-    /// the root changed the path between the two; `before` is the scope in the full graph without
-    /// them.
-    pub(super) fn ask_retired_across(
+    /// Compares pairs of which new edges at the root changed the path, over the full graph; `before`
+    /// is the scope without the edges.
+    pub(super) fn compare_across_in_full(
         &mut self,
         root: VertexId,
         before: &Scope,
@@ -148,35 +156,33 @@ impl RelativeMap {
     ) {
         let Some(scope) = self.full_scope_if(root, true) else { return };
         let changed = Changed::new(before, &scope, &self.full);
-        self.ask_retired(scope, probe, |a, b| changed.is_path_of(a, b), false);
+        self.compare_in_full(scope, probe, |_, a, b| changed.is_path_of(a, b));
     }
 
-    /// Compares rows of a scope of the full graph whose frontier counts with its retired rows.
-    fn ask_retired(
+    /// Compares rows of a scope of the full graph whose frontier counts with others; retired volumes
+    /// that close what counted are taken in again.
+    fn compare_in_full(
         &mut self,
         mut scope: Scope,
         probe: &mut dyn MapProbe,
-        is_pair: impl Fn(u32, u32) -> bool,
-        root_only: bool,
+        is_pair: impl Fn(&Self, u32, u32) -> bool,
     ) {
         std::mem::swap(&mut self.scope, &mut scope);
         self.scope_is_full = true;
         let rows = self.scope.placed().len() as u32;
         let mut pairs = std::mem::take(&mut self.work.pairs);
         pairs.clear();
-        let volume = |row: u32| self.volume(self.scope.placed()[row as usize].vertex);
-        let retired: Vec<u32> =
-            (0..rows).filter(|&row| volume(row).is_some_and(|state| state.retired)).collect();
-        for a in 0..if root_only { rows.min(1) } else { rows } {
-            if !self.is_active(a) || !volume(a).is_some_and(VolumeState::counts) {
+        for a in 0..rows {
+            let at = self.scope.placed()[a as usize].vertex;
+            if !self.volume(at).is_some_and(|state| !state.retired && state.counts()) {
                 continue;
             }
-            pairs.extend(
-                retired.iter().filter(|&&b| is_pair(a, b) && self.may_touch(a, b)).map(|&b| (a, b)),
-            );
+            let others = (0..rows).filter(|&b| is_pair(self, a, b) && self.may_touch(a, b));
+            pairs.extend(others.map(|b| (a, b)));
         }
+        let any = !pairs.is_empty();
         self.work.pairs = pairs;
-        if !self.work.pairs.is_empty() {
+        if any {
             if probe::Probe::<ConsolidationEvent<'_>>::on(probe) {
                 probe.emit(ConsolidationEvent::ScopeTaken {
                     scope: &self.scope,
@@ -187,7 +193,7 @@ impl RelativeMap {
         }
         std::mem::swap(&mut self.scope, &mut scope);
         self.scope_is_full = false;
-        if !self.work.pairs.is_empty() {
+        if any {
             for (_, by) in std::mem::take(&mut self.work.touched) {
                 if self.volume(by).is_some_and(|state| state.closed_others) {
                     self.restore(by, probe);
@@ -196,14 +202,15 @@ impl RelativeMap {
         }
     }
 
-    /// The scope of `root` in the full graph, if that is needed and anything is retired.
+    /// The scope of `root` in the full graph, if anything is retired, there is frontier that counts
+    /// anywhere, and it is `needed`.
     pub(super) fn full_scope_if(&mut self, root: VertexId, needed: bool) -> Option<Scope> {
-        if !needed || self.skeleton.retired_count() == 0 {
+        if !needed || self.totals.places == 0 || self.skeleton.retired_count() == 0 {
             return None;
         }
         let mut scope = Scope::default();
         let radius_m = self.params.consolidation_radius_m;
-        self.scratch.place(&self.full, root, radius_m, &mut scope);
+        self.scratch.place_nearest(&self.full, root, radius_m, MOST_ASKED, &mut scope);
         Some(scope)
     }
 }

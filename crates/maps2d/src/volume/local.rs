@@ -130,6 +130,42 @@ impl LocalVolume {
         clearance
     }
 
+    /// A point in view from which `goal_in_anchor` can be reached: both straight ways, from the
+    /// anchor to it and from it to the goal, keep the clearance. Of those tried, the one with the
+    /// shortest way.
+    ///
+    /// Tries points at shares of the rays. Cost: O(n) for each of them; meant as a rescue.
+    pub fn detour(&self, goal_in_anchor: &Point2, clearance_m: f64) -> Option<Point2> {
+        const RAYS: usize = 48;
+        const SHARES: [f64; 5] = [0.15, 0.3, 0.5, 0.7, 0.85];
+        let every = self.polygon.len().div_ceil(RAYS).max(1);
+        let mut stops: Vec<(f64, Point2)> = Vec::new();
+        for vertex in self.polygon.vertices().iter().step_by(every) {
+            for share in SHARES {
+                let stop = Point2::from(vertex.coords * share);
+                stops.push((stop.coords.norm() + (goal_in_anchor - stop).norm(), stop));
+            }
+        }
+        stops.sort_by(|a, b| a.0.total_cmp(&b.0));
+        stops.into_iter().map(|(_, stop)| stop).find(|stop| {
+            self.motion_clearance(stop).keeps(clearance_m)
+                && self.keeps_clear(stop, goal_in_anchor, clearance_m)
+        })
+    }
+
+    /// Whether a straight way in view keeps a distance from what is solid here.
+    fn keeps_clear(&self, from: &Point2, to: &Point2, clearance_m: f64) -> bool {
+        // The goal lies on the boundary, so the way is inside but for its last bit.
+        let mut inside = Vec::new();
+        self.polygon.clip(from, to, &mut inside);
+        let seen = inside.len() == 1 && inside[0].from <= 0.0 && inside[0].to >= 0.99;
+        seen && self
+            .obstacles
+            .iter()
+            .all(|wall| segment_segment_distance(from, to, &wall.from, &wall.to) >= clearance_m)
+            && self.posts.iter().all(|post| point_segment_distance(post, from, to) >= clearance_m)
+    }
+
     /// Whether a point lies in a direction that was not looked into, within the reach of the view.
     pub fn is_unseen_towards(&self, point_in_anchor: &Point2) -> bool {
         let near = point_in_anchor.coords.norm() <= self.radius_m();
