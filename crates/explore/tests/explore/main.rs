@@ -1,0 +1,8 @@
+//! The policies: on a sketch of a map whose answers are written down, and in simulated places.
+
+mod choices;
+mod ending;
+mod heard;
+mod options;
+mod sketch;
+mod ways;
