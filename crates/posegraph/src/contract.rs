@@ -58,6 +58,7 @@ impl Skeleton {
         }
         self.nodes[vertex].spare = links;
         self.retired += 1;
+        self.whole = false;
         true
     }
 

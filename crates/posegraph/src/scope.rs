@@ -2,7 +2,7 @@
 
 use pose::Se2;
 use probe::{EdgeId, VertexId};
-use search::{Graph, Scratch, dijkstra_nearest, dijkstra_within};
+use search::{Graph, Scratch, dijkstra_nearest};
 
 use crate::{Link, Skeleton};
 
@@ -111,10 +111,28 @@ impl ScopeScratch {
     /// A root that the skeleton does not hold, or that is retired, gives a scope of itself alone.
     /// Cost: O(k log k) for k links inside the radius, whatever the size of the graph.
     pub fn place(&mut self, skeleton: &Skeleton, root: VertexId, radius_m: f64, scope: &mut Scope) {
+        self.place_nearest(skeleton, root, radius_m, usize::MAX, scope);
+    }
+
+    /// [`place`](Self::place), but of the vertices within the radius only the nearest `most`, at
+    /// least the root.
+    pub fn place_nearest(
+        &mut self,
+        skeleton: &Skeleton,
+        root: VertexId,
+        radius_m: f64,
+        most: usize,
+        scope: &mut Scope,
+    ) {
         scope.placed.clear();
         self.row_of.resize(skeleton.len(), u32::MAX);
-        let Ok(tree) = dijkstra_within(&ByLength(skeleton), root, radius_m, &mut self.search)
-        else {
+        let mut count = 0;
+        let full = |_| {
+            count += 1;
+            count >= most
+        };
+        let found = dijkstra_nearest(&ByLength(skeleton), root, radius_m, full, &mut self.search);
+        let Ok(tree) = found.map(|found| found.tree) else {
             let root_from_vertex = Se2::identity();
             scope.placed.push(Placed {
                 vertex: root,

@@ -116,6 +116,7 @@ pub struct Skeleton {
     pub(crate) horizon_m: f64,
     pub(crate) stretch: f64,
     pub(crate) retired: usize,
+    pub(crate) whole: bool,
 }
 
 impl Skeleton {
@@ -132,7 +133,7 @@ impl Skeleton {
     /// is passed again and again grow with every pass. At 1.1 they are few: what remains is a
     /// sparse spanner.
     pub fn with_stretch(horizon_m: f64, stretch: f64) -> Self {
-        Self { nodes: IdVec::new(), horizon_m, stretch: stretch.max(1.0), retired: 0 }
+        Self { nodes: IdVec::new(), horizon_m, stretch: stretch.max(1.0), retired: 0, whole: true }
     }
 
     /// Makes room for vertices up to and including `vertex`.
@@ -155,6 +156,11 @@ impl Skeleton {
     /// Number of retired vertices.
     pub fn retired_count(&self) -> usize {
         self.retired
+    }
+
+    /// Whether nothing was ever retired, so that every way is what it is along the measured edges.
+    pub fn is_whole(&self) -> bool {
+        self.whole
     }
 
     /// Whether the vertex is retired.

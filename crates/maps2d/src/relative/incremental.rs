@@ -57,8 +57,9 @@ impl RelativeMap {
         self.scope_is_fresh &= !hidden;
         self.take_scope(root, &mut probe::Off);
         let before = std::mem::take(&mut self.scope);
-        let leaf = before.placed().len() == 1 && edges.len() == 1;
-        let before_in_full = self.full_scope_if(root, !leaf);
+        // A new vertex on one edge brings no two others nearer.
+        let is_leaf = self.volume(root).is_none() && before.placed().len() == 1 && edges.len() == 1;
+        let before_in_full = self.full_scope_if(root, !is_leaf);
         for &id in edges {
             self.skeleton.add_edge(id, graph.edge(id), &mut self.scratch);
             self.full.add_edge(id, graph.edge(id), &mut self.scratch);

@@ -202,10 +202,10 @@ impl RelativeMap {
         }
     }
 
-    /// The scope of `root` in the full graph, if anything is retired, there is frontier that counts
-    /// anywhere, and it is `needed`.
+    /// The scope of `root` in the full graph, if anything was ever retired, there is frontier that
+    /// counts anywhere, and it is `needed`.
     pub(super) fn full_scope_if(&mut self, root: VertexId, needed: bool) -> Option<Scope> {
-        if !needed || self.totals.places == 0 || self.skeleton.retired_count() == 0 {
+        if !needed || self.totals.places == 0 || self.skeleton.is_whole() {
             return None;
         }
         let mut scope = Scope::default();

@@ -6,6 +6,7 @@ mod drive;
 mod oracle;
 mod retirement;
 mod room;
+mod told;
 mod volume;
 mod withdrawal;
 

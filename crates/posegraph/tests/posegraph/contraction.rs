@@ -215,6 +215,7 @@ fn a_chain_becomes_one_link() {
     for vertex in [2, 1, 3].map(VertexId) {
         assert!(skeleton.retire(vertex, &mut scratch));
     }
+    assert!(!skeleton.is_whole());
     let [link] = skeleton.links(VertexId(0)) else { panic!("{:?}", skeleton.links(VertexId(0))) };
     assert_eq!((link.to, link.length_m, link.odometry_m), (VertexId(4), 4.0, 4.0));
     assert_eq!(link.via.edges(), [0, 1, 2, 3].map(EdgeId));

@@ -48,6 +48,22 @@ proptest! {
         }
     }
 
+    /// The nearest few are the head of all.
+    #[test]
+    fn the_nearest_few_are_the_head_of_all(
+        drawn in graphs(1..16),
+        radius_m in 0.0..60.0_f64,
+        most in 0_usize..20,
+    ) {
+        let skeleton = skeleton_of(&drawn.graph(), 20.0);
+        let (mut all, mut few) = (Scope::default(), Scope::default());
+        let mut scratch = ScopeScratch::default();
+        scratch.place(&skeleton, VertexId(0), radius_m, &mut all);
+        scratch.place_nearest(&skeleton, VertexId(0), radius_m, most, &mut few);
+        let count = most.clamp(1, all.placed().len());
+        prop_assert_eq!(few.placed(), &all.placed()[..count]);
+    }
+
     /// The path between two rows leads from one to the other, walks no edge twice, and adds up to
     /// how they are placed.
     #[test]

@@ -1,0 +1,59 @@
+//! A listener that writes down what the maps tell.
+
+use maps2d::grid::GridEvent;
+use maps2d::relative::ConsolidationEvent;
+use maps2d::volume::VolumeEvent;
+
+/// One event: its variant, and what it says, in short.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Told {
+    pub variant: &'static str,
+    pub says: String,
+}
+
+impl From<VolumeEvent<'_>> for Told {
+    fn from(event: VolumeEvent<'_>) -> Self {
+        let says = match &event {
+            VolumeEvent::Measured { vertex, scan, .. } => format!("{vertex} {} rays", scan.len()),
+            VolumeEvent::Sampled { vertex, samples } => format!("{vertex} {}", samples.len()),
+            VolumeEvent::Built { vertex, volume } | VolumeEvent::Merged { vertex, volume } => {
+                format!("{vertex} {} frontier edges", volume.frontier.len())
+            }
+        };
+        Self { variant: event.variant(), says }
+    }
+}
+
+impl From<ConsolidationEvent<'_>> for Told {
+    fn from(event: ConsolidationEvent<'_>) -> Self {
+        let says = match &event {
+            ConsolidationEvent::ScopeTaken { scope, .. } => {
+                format!("{:?} {} rows", scope.root(), scope.placed().len())
+            }
+            ConsolidationEvent::PairCompared { volume, against, closed_m, .. } => {
+                format!("{volume} against {against}: {closed_m} m")
+            }
+            ConsolidationEvent::Closed { volume, edge, span, cause, by, path } => {
+                format!("{volume} {:?} {span:?} {cause:?} by {by} along {path:?}", edge.key)
+            }
+            ConsolidationEvent::Reopened { volume, edge, span, cause } => {
+                format!("{volume} {:?} {span:?} {cause:?}", edge.key)
+            }
+            ConsolidationEvent::Retired { volume } | ConsolidationEvent::Restored { volume } => {
+                volume.to_string()
+            }
+            ConsolidationEvent::Settled { standing, .. } => standing.to_string(),
+        };
+        Self { variant: event.variant(), says }
+    }
+}
+
+impl From<GridEvent<'_>> for Told {
+    fn from(event: GridEvent<'_>) -> Self {
+        let says = match &event {
+            GridEvent::ScanApplied { changed, .. } => format!("{changed:?}"),
+            GridEvent::Rebuilt { scans, .. } => format!("{scans} scans"),
+        };
+        Self { variant: event.variant(), says }
+    }
+}
