@@ -92,3 +92,17 @@ fn what_is_cut_off_is_told_and_the_rest_is_read() {
     let nowhere = folder.path().join("nowhere.rrd");
     assert!(matches!(inspect(&nowhere), Err(instrument::InstrumentError::Open { .. })));
 }
+
+#[test]
+fn a_file_that_cannot_be_written_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("no such folder").join("run.rrd");
+    let world = worlds::paper::open();
+    let refused = Recording::create(support::options(&path, Level::Full, &["relative"], &world));
+    assert!(matches!(refused, Err(instrument::InstrumentError::Write { .. })));
+    let nothing = Recording::create(support::options(&path, Level::Off, &["relative"], &world));
+    let recording = nothing.expect("level off writes nothing");
+    let mut recorder = recording.recorder("relative");
+    support::explore(&mut recorder, "relative", &std::sync::Arc::new(world), 5);
+    recording.finish(&serde_json::json!({})).expect("nothing to write");
+}

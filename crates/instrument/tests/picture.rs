@@ -97,3 +97,25 @@ fn coverage_and_paths_are_whole_at_every_step() {
     }
     assert!(grew > 60, "the robot moved {grew} times");
 }
+
+/// The summary holds one belief per step: the one at its end.
+#[test]
+fn the_summary_holds_one_belief_per_step() {
+    let folder = tempfile::tempdir().expect("a folder");
+    for (level, one_per_step) in [(Level::Summary, true), (Level::Full, false)] {
+        let path = folder.path().join(format!("{level:?}.rrd"));
+        support::record(&path, level, &["relative"], worlds::paper::open(), 120);
+        let mut steps: Vec<i64> = Vec::new();
+        for chunk in chunks(&path) {
+            if chunk.entity_path().to_string() == "/relative/belief/edges/frontier" {
+                let timelines = chunk.timelines();
+                let of_chunk = timelines.values().find(|times| times.name() == "step");
+                steps.extend(of_chunk.map_or(&[][..], |times| times.times_raw()));
+            }
+        }
+        let rows = steps.len();
+        steps.dedup();
+        assert!(rows > 60, "{rows} rows at {level:?}");
+        assert!(!one_per_step || steps.len() == rows, "{rows} rows, {} steps", steps.len());
+    }
+}

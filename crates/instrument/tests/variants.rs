@@ -150,7 +150,7 @@ fn any_family_may_be_thinned() {
             let recording = Recording::create(options).expect("a new file");
             for kind in maps {
                 let mut recorder = recording.recorder(kind);
-                support::explore(&mut recorder, kind, &world, 30);
+                support::explore(&mut recorder, kind, &world, 16);
                 recorder.send().expect("rows fit together");
             }
             recording.finish(&serde_json::json!({})).expect("a disk");
