@@ -15,8 +15,7 @@ const SEEDS: &str = "proptest-regressions/retirement.txt";
 
 /// What counts is the same, volume by volume.
 ///
-/// Lengths are compared, not parts: rounding may split a part, and a ray that comes back to a volume
-/// is merged only where something is open, be it a sliver.
+/// Lengths are compared, not parts: rounding may split a part.
 fn check_same(with: &RelativeMap, without: &RelativeMap) -> Result<(), TestCaseError> {
     for ((vertex, a), (_, b)) in with.volumes().zip(without.volumes()) {
         let told = || format!("{vertex}: {} m with, {} m without", a.open_m, b.open_m);
@@ -44,23 +43,22 @@ proptest! {
     #![proptest_config(config(64, SEEDS))]
 
     #[test]
-    fn what_counts_is_the_same_in_any_story(
-        story in stories(Mix { turns: 1, links: 1, withdrawals: 0 }, 10..40),
+    fn what_counts_is_the_same_without_turning(
+        story in stories(Mix { turns: 0, links: 1, withdrawals: 0 }, 10..40),
         params in params(),
     ) {
         check_story(&story, params)?;
     }
 
-    /// In one scope: pairs beyond its radius are compared only if they once lay in the scope of a
-    /// third vertex, and what they closed and lost does not come back.
+    /// Where volumes are replaced and edges withdrawn, all is in one scope: pairs beyond its radius
+    /// are compared only if they once lay in the scope of a third vertex, and what they closed and
+    /// lost does not come back. And slivers count: which rays a second look adds depends on them.
     #[test]
-    fn what_counts_is_the_same_where_place_edges_are_withdrawn(
+    fn what_counts_is_the_same_in_any_story(
         story in stories(Mix { turns: 1, links: 2, withdrawals: 1 }, 10..40),
-        params in params().prop_map(|params| RelativeParams {
-            consolidation_radius_m: 1e3,
-            ..params
-        }),
+        params in params(),
     ) {
+        let params = RelativeParams { consolidation_radius_m: 1e3, sliver_m: 0.0, ..params };
         check_story(&story, params)?;
     }
 }
