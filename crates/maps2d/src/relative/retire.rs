@@ -2,23 +2,27 @@
 //! known space costs no more each time.
 //!
 //! A volume is spent when, as the robot leaves it, none of its own frontier counts any more and the
-//! active volumes account without it for everything that it closed ([`RelativeMap::is_missed`] does
-//! the sum: it opens those parts on a copy and closes them again). It is retired: it takes no part in
-//! comparisons, and its vertex is contracted, which keeps every shortest path up to the horizon
-//! (`posegraph::Skeleton::retire`). What counts as frontier stays what it would be if nothing were
-//! ever retired:
+//! active volumes account without it for everything that it closed (`is_missed` does the sum: it
+//! opens those parts on a copy and closes them again). It is retired: it takes no part in
+//! comparisons, and its vertex is contracted (`posegraph::Skeleton::retire`). What counts as frontier
+//! stays what it would be if nothing were ever retired:
 //!
 //! - *Its own frontier.* None of it counts, and none will: consolidation only closes, and chains
-//!   that lose parts get no longer. Where a part opens again, it is taken in again.
-//! - *Frontier of others that it could close.* As long as a volume has frontier that counts after
-//!   all active volumes were asked, the retired ones in scope are asked too
-//!   ([`RelativeMap::ask_retired_about`]). A volume without frontier that counts has none after
-//!   more was closed, either: there it makes no difference that nobody asked them.
-//! - *Paths.* Volumes are placed along the same paths as before; retired ones are placed over the
-//!   full graph.
+//!   that lose parts get no longer. Where a part that counts opens again, it is taken in again.
+//! - *Frontier of others that it could close.* Where frontier still counts after the active volumes
+//!   were asked, the retired ones in scope are asked too (`ask_retired_about`). A volume without
+//!   frontier that counts would have none after more was closed, either: there it makes no
+//!   difference that nobody asked.
+//! - *Ways.* No way over the skeleton is shorter than it is along the measured edges, so nobody is
+//!   asked who would not be otherwise. Whom the skeleton puts out of scope, because ways over
+//!   retired vertices stretch, is asked over the full graph together with the retired.
 //!
-//! A retired volume that does close what counted is taken in again. So in known space, where no
-//! frontier is left, nobody asks, and the cost stops growing.
+//! A retired volume that closes what counted is taken in again. So in known space, where no frontier
+//! is left, nobody asks, and the cost stops growing. Where frontier is left, the nearest
+//! [`MOST_ASKED`] vertices are asked: it takes more than that within one scope for frontier to be
+//! left that a retired volume would have closed; never is any closed that it would have left. Over
+//! the skeleton, placement may go round by a tenth per retired vertex: under drift a part may be
+//! closed along that way instead of the shortest.
 
 use geometry::planar::Interval;
 use posegraph::Scope;
@@ -31,7 +35,7 @@ use super::{Cause, Closing, ConsolidationEvent, RelativeMap, VolumeState};
 use crate::MapProbe;
 
 /// Of the vertices in a scope of the full graph only so many are asked, the nearest.
-const MOST_ASKED: usize = 400;
+const MOST_ASKED: usize = 200;
 
 impl RelativeMap {
     pub(super) fn retire_if_spent(&mut self, vertex: VertexId, probe: &mut dyn MapProbe) {
