@@ -3,6 +3,8 @@
 
 mod consolidation;
 mod drive;
+mod events;
+mod explain;
 mod oracle;
 mod retirement;
 mod room;

@@ -31,13 +31,17 @@ impl From<ConsolidationEvent<'_>> for Told {
                 format!("{:?} {} rows", scope.root(), scope.placed().len())
             }
             ConsolidationEvent::PairCompared { volume, against, closed_m, .. } => {
-                format!("{volume} against {against}: {closed_m} m")
+                format!("{volume} against {against}: {closed_m:.3} m")
             }
             ConsolidationEvent::Closed { volume, edge, span, cause, by, path } => {
-                format!("{volume} {:?} {span:?} {cause:?} by {by} along {path:?}", edge.key)
+                let (from, to) = (span.from, span.to);
+                format!(
+                    "{volume} {:?} {from:.3}..{to:.3} {cause:?} by {by} along {path:?}",
+                    edge.key
+                )
             }
             ConsolidationEvent::Reopened { volume, edge, span, cause } => {
-                format!("{volume} {:?} {span:?} {cause:?}", edge.key)
+                format!("{volume} {:?} {:.3}..{:.3} {cause:?}", edge.key, span.from, span.to)
             }
             ConsolidationEvent::Retired { volume } | ConsolidationEvent::Restored { volume } => {
                 volume.to_string()
