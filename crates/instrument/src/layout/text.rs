@@ -18,12 +18,12 @@ pub(crate) fn about(options: &RecordingOptions) -> String {
             Centre::Robot => {
                 "around the robot, which is all that this map claims: every volume in scope is laid \
                  out along its shortest path through the pose graph, there is no global map. \
-                 Volumes that add nothing any more are retired and not drawn. Behind it, in tabs: \
+                 Volumes that add nothing any more are retired and not drawn. Behind it or below, in tabs: \
                  the same over the true walls"
             }
             Centre::Start => {
                 "in its own global frame, laid onto the true walls where the robot started. Behind \
-                 it, in a tab"
+                 it or below"
             }
         };
         page.push_str(&format!(

@@ -42,7 +42,7 @@ fn write(stream: &RecordingStream, options: &RecordingOptions) -> RecordingStrea
     layout.finish(options.follow)
 }
 
-/// One map: truth, belief, and behind tabs the graph and the single event.
+/// One map: truth and belief, the graph and the single event behind tabs or below.
 fn map_row(
     layout: &mut Layout<'_>,
     map: &MapOptions,
@@ -119,9 +119,20 @@ fn map_row(
         ],
         properties: vec![("VisualBounds2D", &drifted), ("Background", &paper)],
     })?;
+    let beside = |layout: &mut Layout<'_>, left, right| {
+        layout.container(ContainerKind::Horizontal, &[left, right], &[1.0, 1.0])
+    };
+    // A map that has the window for itself shows the graph at once.
+    if options.maps.len() == 1 && behind.len() > 1 {
+        let believed = behind.remove(0);
+        let above = beside(layout, truth, believed)?;
+        let others = layout.container(ContainerKind::Tabs, &behind, &[])?;
+        let below = beside(layout, graph, others)?;
+        return layout.container(ContainerKind::Vertical, &[above, below], &[1.3, 1.0]);
+    }
     behind.push(graph);
     let tabs = layout.container(ContainerKind::Tabs, &behind, &[])?;
-    layout.container(ContainerKind::Horizontal, &[truth, tabs], &[1.0, 1.0])
+    beside(layout, truth, tabs)
 }
 
 /// Text, plots and the log of events, for all maps.
