@@ -6,7 +6,7 @@ use pose::Se2;
 use posegraph::EdgeKind;
 use probe::{EdgeId, Probe, VertexId};
 
-/// What the loop is doing ([ISRR19] 5).
+/// What the loop is doing (\[ISRR19\] 5).
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum State {
     /// Towards a frontier in view.
@@ -67,7 +67,7 @@ pub enum Ending {
     Stuck,
 }
 
-/// Steps of the policy ([ISRR19] 5, [Zie18] 2.9).
+/// Steps of the policy (\[ISRR19\] 5, \[Zie18\] 2.9).
 #[derive(Clone, Copy, Debug)]
 pub enum PlannerEvent<'a> {
     /// The state changed.

@@ -1,6 +1,6 @@
 //! What can be chosen about the exploration.
 
-/// Parameters of the rapid policy ([ISRR19] 5, [Zie18] 2.9).
+/// Parameters of the rapid policy (\[ISRR19\] 5, \[Zie18\] 2.9).
 #[derive(Clone, Debug, PartialEq)]
 pub struct RapidParams {
     /// Longest straight move before the next scan, metres.
@@ -9,7 +9,7 @@ pub struct RapidParams {
     pub clearances_m: Vec<f64>,
     /// A turn smaller than this is made without a scan of its own, radians.
     pub turn_tolerance_rad: f64,
-    /// How far before the frontier the "normal point" lies, metres ([Zie18] 2.9.3).
+    /// How far before the frontier the "normal point" lies, metres (\[Zie18\] 2.9.3).
     pub normal_point_m: Vec<f64>,
     /// How near a goal counts as reached, metres.
     pub arrival_m: f64,
@@ -24,7 +24,7 @@ pub struct RapidParams {
     /// turning costs no distance. The paper's policy does not.
     pub look_first: bool,
     /// Whether the robot jumps along the graph and scans only at the end of a way; the distance is
-    /// charged in full ([Zie18] 3.1).
+    /// charged in full (\[Zie18\] 3.1).
     pub teleport: bool,
 }
 

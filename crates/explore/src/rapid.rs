@@ -1,5 +1,5 @@
 //! The rapid policy: towards the frontier in view with the least change of heading, else along the
-//! graph to the nearest vertex with frontier ([ISRR19] 5, [Zie18] 2.9).
+//! graph to the nearest vertex with frontier (\[ISRR19\] 5, \[Zie18\] 2.9).
 //!
 //! It ends for certain. Every action either closes frontier, founds a vertex nearer to a goal, or
 //! gives a goal up; a goal that is given up takes the frontier around it out of the count for good,
@@ -52,7 +52,7 @@ pub(crate) struct Pursuit {
 enum Approach {
     /// Straight to it.
     Straight,
-    /// By a point before it, on its normal ([Zie18] 2.9.3).
+    /// By a point before it, on its normal (\[Zie18\] 2.9.3).
     NormalPoint,
     /// By a point from which it can be reached.
     Detour,
@@ -428,7 +428,7 @@ impl Explorer {
             .find_map(|goal| self.allowed(candidate, goal, clearance_m, level, params))
     }
 
-    /// By a point on the normal of the frontier, a stretch before it, in free space ([Zie18] 2.9.3).
+    /// By a point on the normal of the frontier, a stretch before it, in free space (\[Zie18\] 2.9.3).
     fn motion_by_normal_point(
         &mut self,
         candidate: usize,

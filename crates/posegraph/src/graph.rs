@@ -1,4 +1,4 @@
-//! The record: every vertex and edge that was ever added ([ISRR19] 4.2).
+//! The record: every vertex and edge that was ever added (\[ISRR19\] 4.2).
 
 use pose::Se2;
 use probe::{EdgeId, IdVec, VertexId};
@@ -23,7 +23,7 @@ pub struct Edge {
     pub b: VertexId,
     /// Frame of `b` in the frame of `a`.
     pub a_from_b: Se2,
-    /// Weight of the edge: the norm of the translation, metres ([ISRR19] 4.3).
+    /// Weight of the edge: the norm of the translation, metres (\[ISRR19\] 4.3).
     pub length_m: f64,
     /// Where the measurement comes from.
     pub kind: EdgeKind,

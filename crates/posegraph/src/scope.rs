@@ -1,4 +1,4 @@
-//! Relative placement along shortest paths, and the consolidation scope ([ISRR19] 4.2, 4.3).
+//! Relative placement along shortest paths, and the consolidation scope (\[ISRR19\] 4.2, 4.3).
 
 use pose::Se2;
 use probe::{EdgeId, VertexId};

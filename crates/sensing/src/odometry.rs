@@ -11,7 +11,7 @@ pub struct Odometry {
     /// Distance driven, metres.
     pub distance_m: f64,
     /// The known vertex that the robot now stands on, where its localisation put it onto one
-    /// ([Zie18] 3.1), with the body in that vertex's frame.
+    /// (\[Zie18\] 3.1), with the body in that vertex's frame.
     pub snapped: Option<(VertexId, Se2)>,
 }
 

@@ -1,4 +1,4 @@
-//! A scan changes cells ([ISRR19] 6.2, eq. 6).
+//! A scan changes cells (\[ISRR19\] 6.2, eq. 6).
 
 use std::collections::BTreeSet;
 
@@ -59,6 +59,7 @@ impl GridMap {
     pub(super) fn rebuild(&mut self) {
         self.cells.clear();
         self.frontier.clear();
+        self.ignored.clear();
         let scans = std::mem::take(&mut self.scans);
         for (vertex, vertex_from_sensor, scan) in &scans {
             let odom_from_sensor = self.odom_from_vertex[*vertex] * *vertex_from_sensor;
@@ -68,10 +69,12 @@ impl GridMap {
     }
 
     pub(super) fn note_frontier(&mut self, cell: Cell) {
-        if self.cells.is_frontier(cell) && !self.cells.is_given_up(cell) {
-            self.frontier.insert(cell);
-        } else {
-            self.frontier.remove(&cell);
+        self.frontier.remove(&cell);
+        self.ignored.remove(&cell);
+        if self.cells.is_frontier(cell) {
+            let given_up = self.cells.is_given_up(cell);
+            let of = if given_up { &mut self.ignored } else { &mut self.frontier };
+            of.insert(cell);
         }
     }
 

@@ -1,4 +1,4 @@
-//! The grid's own frontier planner ([ISRR19] 6.2): frontier cells in view, else Dijkstra's search
+//! The grid's own frontier planner (\[ISRR19\] 6.2): frontier cells in view, else Dijkstra's search
 //! over free cells.
 
 use geometry::{Point2, Vector2};
@@ -61,7 +61,7 @@ impl GridMap {
         }
     }
 
-    /// The shortest way over free cells to the nearest frontier cell, straightened.
+    /// The shortest way over free cells to the nearest frontier cell, from centre to centre.
     pub(super) fn way_over_free_cells(
         &mut self,
         standing: &Standing,
@@ -98,7 +98,7 @@ impl GridMap {
         // What no way over free cells leads to is believed to be out of reach.
         for cell in std::mem::take(&mut self.frontier) {
             self.cells.give_up(cell);
-            self.ignored += 1;
+            self.ignored.insert(cell);
         }
         None
     }
@@ -120,7 +120,7 @@ impl GridMap {
                     || self.cells.at(&goal) == cell;
                 if near && self.frontier.remove(&cell) {
                     self.cells.give_up(cell);
-                    self.ignored += 1;
+                    self.ignored.insert(cell);
                 }
             }
         }

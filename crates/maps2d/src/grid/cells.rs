@@ -24,7 +24,7 @@ impl Cell {
     }
 }
 
-/// What is believed of a cell ([ISRR19] eq. 6 with probabilities 0, 0.5 and 1).
+/// What is believed of a cell (\[ISRR19\] eq. 6 with probabilities 0, 0.5 and 1).
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum CellState {
     /// Never seen.

@@ -2,7 +2,7 @@
 
 use super::{Cell, CellState, GridMap};
 
-/// Steps of the occupancy grid ([ISRR19] 6.2).
+/// Steps of the occupancy grid (\[ISRR19\] 6.2).
 #[derive(Clone, Copy, Debug)]
 pub enum GridEvent<'a> {
     /// A scan was applied.

@@ -31,7 +31,7 @@ impl Default for GridParams {
     }
 }
 
-/// The plain grid in the odometry frame: estimates are taken as they are ([ISRR19] 6.2).
+/// The plain grid in the odometry frame: estimates are taken as they are (\[ISRR19\] 6.2).
 #[derive(Clone, Debug)]
 pub struct GridMap {
     pub(super) params: GridParams,
@@ -42,7 +42,8 @@ pub struct GridMap {
     pub(super) scans: Vec<(VertexId, Se2, Scan)>,
     /// Frontier cells that count, in order.
     pub(super) frontier: BTreeSet<Cell>,
-    pub(super) ignored: usize,
+    /// Frontier cells that do not count, because they were given up.
+    pub(super) ignored: BTreeSet<Cell>,
     /// What is seen from where the robot stands, for clearance.
     pub(super) view: LocalVolume,
     pub(super) view_samples: Samples,
@@ -59,7 +60,7 @@ impl GridMap {
             odom_from_vertex: IdVec::new(),
             scans: Vec::new(),
             frontier: BTreeSet::new(),
-            ignored: 0,
+            ignored: BTreeSet::new(),
             view: LocalVolume::empty(),
             view_samples: Samples::new(),
             view_at: None,
@@ -141,7 +142,7 @@ impl ExplorationMap for GridMap {
     fn frontier(&self) -> Frontier {
         Frontier {
             open_m: self.frontier.len() as f64 * self.params.cell_m,
-            ignored_m: self.ignored as f64 * self.params.cell_m,
+            ignored_m: self.ignored.len() as f64 * self.params.cell_m,
             places: self.frontier.len(),
         }
     }

@@ -73,7 +73,7 @@ impl RelativeMap {
         state.volume.motion_clearance(&standing.vertex_from_body.transform(to_in_body))
     }
 
-    /// The way along the graph to the nearest vertex with frontier that counts ([ISRR19] 5).
+    /// The way along the graph to the nearest vertex with frontier that counts (\[ISRR19\] 5).
     pub(super) fn way_to_frontier(&mut self, standing: &Standing) -> Option<Route> {
         if self.totals.places == 0 {
             return None;

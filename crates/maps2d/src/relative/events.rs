@@ -11,7 +11,7 @@ use crate::volume::FrontierEdge;
 /// Why a part of a frontier edge was closed.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
 pub enum Cause {
-    /// It lies inside another volume: free ([ISRR19] 4.3).
+    /// It lies inside another volume: free (\[ISRR19\] 4.3).
     Inside,
     /// It lies along a wall that another volume saw, nearer than the named distance.
     Wall,
@@ -28,7 +28,7 @@ pub enum ReopenCause {
     VolumeReplaced(VertexId),
 }
 
-/// Steps of frontier consolidation ([ISRR19] 4.3).
+/// Steps of frontier consolidation (\[ISRR19\] 4.3).
 #[derive(Clone, Copy, Debug)]
 pub enum ConsolidationEvent<'a> {
     /// The scope was gathered: all vertices within the radius of the root along the graph, each

@@ -1,4 +1,4 @@
-//! Which pairs have to be compared after a change, and no others ([ISRR19] 4.3).
+//! Which pairs have to be compared after a change, and no others (\[ISRR19\] 4.3).
 
 use posegraph::{PoseGraph, Scope, Skeleton};
 use probe::{EdgeId, VertexId};

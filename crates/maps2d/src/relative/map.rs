@@ -9,7 +9,7 @@ use sensing::Scan;
 use super::{ConsolidationEvent, PathBook, RelativeParams, VolumeState};
 use crate::{Candidate, Clearance, ExplorationMap, Frontier, MapProbe, Route, Standing};
 
-/// Local volumes on a pose graph, with consolidated frontiers ([ISRR19] 4).
+/// Local volumes on a pose graph, with consolidated frontiers (\[ISRR19\] 4).
 ///
 /// Volumes are kept in the frames of their own vertices; no global frame exists.
 #[derive(Clone, Debug)]
@@ -99,7 +99,7 @@ impl RelativeMap {
         self.volumes().filter(|(_, state)| !state.retired).count()
     }
 
-    /// The scope taken last ([ISRR19] 4.3).
+    /// The scope taken last (\[ISRR19\] 4.3).
     pub fn scope(&self) -> &Scope {
         &self.scope
     }

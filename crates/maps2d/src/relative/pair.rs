@@ -1,4 +1,4 @@
-//! Two volumes held against each other: frontier of one inside the other is closed ([ISRR19] 4.3).
+//! Two volumes held against each other: frontier of one inside the other is closed (\[ISRR19\] 4.3).
 
 use geometry::planar::Interval;
 use pose::Se2;

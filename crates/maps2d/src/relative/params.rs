@@ -7,7 +7,7 @@ use crate::volume::VolumeParams;
 pub struct RelativeParams {
     /// How scans become volumes.
     pub volume: VolumeParams,
-    /// Radius of the consolidation scope along the graph, metres (R in [ISRR19] 4.3, where its value
+    /// Radius of the consolidation scope along the graph, metres (R in \[ISRR19\] 4.3, where its value
     /// is not printed; the figures give 10 m).
     pub consolidation_radius_m: f64,
     /// Frontier nearer than this to an obstacle edge of another volume in scope is closed as wall,

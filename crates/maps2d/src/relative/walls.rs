@@ -11,7 +11,7 @@ use crate::volume::LocalVolume;
 /// The stretches of open frontier of `state` within `radius_m` of what is solid in `other`.
 ///
 /// Under drift the frontier bits that touch a wall are never quite inside another volume; without
-/// this rule they would stay for ever. Not in [ISRR19], which leaves it open.
+/// this rule they would stay for ever. Not in \[ISRR19\], which leaves it open.
 pub(super) fn spans_along_walls(
     state: &VolumeState,
     other: &LocalVolume,

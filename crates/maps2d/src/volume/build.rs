@@ -1,4 +1,4 @@
-//! From samples to a labelled star polygon ([ISRR19] 4.1).
+//! From samples to a labelled star polygon (\[ISRR19\] 4.1).
 
 use geometry::Point2;
 use geometry::planar::{PlanarError, StarPolygon};
@@ -9,13 +9,13 @@ use super::{EdgeKey, FrontierEdge, LocalVolume, ObstacleEdge, Options, Samples};
 /// How samples become a volume.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct VolumeParams {
-    /// Hits whose ranges differ by this or more are not one surface, metres (δ in [ISRR19] 4.1,
+    /// Hits whose ranges differ by this or more are not one surface, metres (δ in \[ISRR19\] 4.1,
     /// where its value is not printed).
     pub occlusion_gap_m: f64,
     /// What a point must be inside a volume to count as inside, metres. Without it the walls that two
     /// volumes share would be freed by rounding.
     pub strict_margin_m: f64,
-    /// Choices of [Zie18].
+    /// Choices of \[Zie18\].
     pub options: Options,
 }
 

@@ -6,7 +6,7 @@ use sensing::Scan;
 
 use super::{LocalVolume, Samples};
 
-/// Steps of building a local volume ([ISRR19] 4.1, [Zie18] 2.4).
+/// Steps of building a local volume (\[ISRR19\] 4.1, \[Zie18\] 2.4).
 #[derive(Clone, Copy, Debug)]
 pub enum VolumeEvent<'a> {
     /// A scan arrived: rays, hits and misses.

@@ -1,4 +1,4 @@
-//! The choices that [Zie18] 2.4 makes differently.
+//! The choices that \[Zie18\] 2.4 makes differently.
 
 use geometry::Point2;
 
@@ -7,24 +7,24 @@ use super::Sample;
 /// When two neighbouring hits belong to different things.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
 pub enum OcclusionRule {
-    /// Their ranges differ by the gap or more ([ISRR19] 4.1).
+    /// Their ranges differ by the gap or more (\[ISRR19\] 4.1).
     #[default]
     Range,
     /// Their forward coordinates, first minus second counter-clockwise, differ by more than the
-    /// gap ([Zie18] eq. 2.4). The sign matters: a step away from the robot is not an occlusion.
+    /// gap (\[Zie18\] eq. 2.4). The sign matters: a step away from the robot is not an occlusion.
     ForwardSigned,
 }
 
-/// Options of the construction; the defaults are those of [ISRR19].
+/// Options of the construction; the defaults are those of \[ISRR19\].
 #[derive(Clone, Copy, Debug, PartialEq, Default)]
 pub struct Options {
     /// How occlusions are told from surfaces.
     pub occlusion: OcclusionRule,
     /// Whether a frontier vertex is put into the middle of each edge that spans an occlusion, so
-    /// that there is a place to go to ([Zie18] 2.4).
+    /// that there is a place to go to (\[Zie18\] 2.4).
     pub insert_occlusion_vertex: bool,
     /// Hits closer than this to the hit kept before are dropped, metres; 0 keeps all
-    /// ([Zie18] 2.4, "subsample"). The last hit before a miss or an occlusion always stays.
+    /// (\[Zie18\] 2.4, "subsample"). The last hit before a miss or an occlusion always stays.
     pub thin_m: f64,
 }
 
