@@ -69,6 +69,8 @@ impl GridMap {
     ) -> Option<Route> {
         let odom_from_body = self.odom_from_body(standing);
         let start = self.cells.at(&Point2::from(odom_from_body.translation));
+        // Where the robot stands may never have been seen.
+        self.cells.grow_to(start);
         let from = VertexId(self.cells.slot(start)? as u32);
         // Cells beside something occupied are left out first, where the clearance asks for it.
         for shy in [clearance_m >= 0.1, false] {

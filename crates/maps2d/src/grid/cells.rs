@@ -144,7 +144,8 @@ impl Cells {
         self.states.len() * (size_of::<CellState>() + size_of::<bool>())
     }
 
-    fn grow_to(&mut self, cell: Cell) {
+    /// Makes room for a cell.
+    pub(super) fn grow_to(&mut self, cell: Cell) {
         if self.slot(cell).is_some() {
             return;
         }

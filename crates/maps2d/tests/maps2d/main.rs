@@ -5,6 +5,7 @@ mod consolidation;
 mod drive;
 mod events;
 mod explain;
+mod grid;
 mod oracle;
 mod retirement;
 mod room;
