@@ -17,7 +17,8 @@ impl RelativeMap {
             for spoke in [true, false] {
                 let run = Run::of(state, chain, spoke);
                 // A short end of a chain is seen on the way to the rest of it.
-                if run.length_m < 0.4 * self.params.sliver_m.min(chain.length_m) {
+                let least_m = 0.4 * self.params.sliver_m.min(chain.length_m);
+                if run.parts.is_empty() || run.length_m < least_m {
                     continue;
                 }
                 let goals = GOAL_SHARES
@@ -96,7 +97,8 @@ impl RelativeMap {
         probe: &mut dyn MapProbe,
     ) {
         let place = standing.vertex_from_body.transform(goal_in_body);
-        let Some(state) = self.volumes[standing.vertex].as_deref_mut() else { return };
+        let found = self.volumes.get_mut(standing.vertex).and_then(Option::as_deref_mut);
+        let Some(state) = found else { return };
         state.given_up.push((place, radius_m));
         if everywhere {
             self.compare_with_scope(standing.vertex, probe);

@@ -147,7 +147,7 @@ fn picture(map: &RelativeMap, count: usize) -> Picture {
 }
 
 proptest! {
-    #![proptest_config(config(48, SEEDS))]
+    #![proptest_config(config(250, SEEDS))]
 
     #[test]
     fn labels_partition_every_edge(story in stories(ALL, 1..16), params in params()) {
@@ -188,6 +188,10 @@ proptest! {
             Ok(())
         })?;
     }
+}
+
+proptest! {
+    #![proptest_config(config(32, SEEDS))]
 
     #[test]
     fn steps_come_to_what_all_pairs_come_to(

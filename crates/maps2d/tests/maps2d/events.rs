@@ -18,7 +18,7 @@ use super::told::Told;
 const SEEDS: &str = "proptest-regressions/events.txt";
 
 proptest! {
-    #![proptest_config(config(48, SEEDS))]
+    #![proptest_config(config(150, SEEDS))]
 
     /// A map that is watched is the map that is not, bit for bit.
     #[test]

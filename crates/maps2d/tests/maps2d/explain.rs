@@ -13,7 +13,7 @@ use super::room::{Room, Sensor};
 const SEEDS: &str = "proptest-regressions/explain.txt";
 
 proptest! {
-    #![proptest_config(config(48, SEEDS))]
+    #![proptest_config(config(250, SEEDS))]
 
     /// The pieces of each edge tile it in order; what they tell is what the ledgers hold, and why
     /// something is left is true by brute force.

@@ -40,7 +40,7 @@ fn check_story(story: &Story, params: RelativeParams) -> Result<usize, TestCaseE
 }
 
 proptest! {
-    #![proptest_config(config(64, SEEDS))]
+    #![proptest_config(config(250, SEEDS))]
 
     #[test]
     fn what_counts_is_the_same_without_turning(
