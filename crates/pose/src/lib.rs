@@ -1,10 +1,8 @@
 #![doc = include_str!("../README.md")]
 
-mod covariance;
-mod group;
-mod jacobians;
-mod tangent;
+mod se2;
+mod se3;
 
-pub use covariance::{covariance_of_compose, covariance_of_inverse};
-pub use group::{Se2, wrap_angle};
 pub use nalgebra;
+pub use se2::{Se2, covariance_of_compose, covariance_of_inverse, wrap_angle};
+pub use se3::{Se3, So3};

@@ -5,8 +5,8 @@
 
 use nalgebra::{Matrix2, Matrix2x3, Matrix3, Point2, Vector2, Vector3};
 
+use super::tangent::{Turning, Unturning};
 use crate::Se2;
-use crate::tangent::{Turning, Unturning};
 
 /// Below this angle the difference between angle and sine is summed as a series.
 const SERIES_BELOW_RAD: f64 = 0.5;
