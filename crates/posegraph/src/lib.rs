@@ -1,12 +1,19 @@
 #![doc = include_str!("../README.md")]
 
-mod contract;
 mod error;
-mod graph;
-mod scope;
-mod skeleton;
+pub mod factors;
+pub mod initial;
+mod placement;
+pub mod solvers;
 
 pub use error::PoseGraphError;
-pub use graph::{Edge, EdgeKind, PoseGraph};
-pub use scope::{Placed, Placement, Scope, ScopeScratch};
-pub use skeleton::{Link, Skeleton, Via};
+pub use factors::{
+    ErrorKind, Factor, FactorGraph, FactorGraph2, FactorGraph3, Linearized, Manifold,
+};
+pub use placement::{
+    Edge, EdgeKind, Link, Placed, Placement, PoseGraph, Scope, ScopeScratch, Skeleton, Via,
+};
+pub use solvers::{
+    Fill, InformationPolicy, Iteration, Loss, LossOn, OptimizerEvent, Options, Report, Solution,
+    Solver, Termination, optimize, optimize_weighted, optimize_with,
+};

@@ -1,0 +1,5 @@
+//! Start values.
+
+mod odometry;
+
+pub use odometry::odometry;

@@ -1,0 +1,154 @@
+//! What an optimisation did, and why it ended.
+
+use super::Fill;
+
+/// Why an optimisation ended, with the measured value and the threshold it was held against.
+#[derive(Clone, Copy, Debug, PartialEq)]
+#[non_exhaustive]
+pub enum Termination {
+    /// The cost hardly changed any more.
+    CostConverged {
+        /// Change of the cost in the last iteration as a share of it.
+        relative_decrease: f64,
+        /// At most this counts as converged.
+        threshold: f64,
+    },
+    /// The steps became too short to matter.
+    StepConverged {
+        /// The largest entry of the last step, metres or radians.
+        step: f64,
+        /// At most this counts as converged.
+        threshold: f64,
+    },
+    /// There was nothing to move: no factors, or every vertex is fixed.
+    NothingToDo,
+    /// The limit of iterations came first.
+    IterationLimit {
+        /// Iterations done.
+        iterations: usize,
+        /// The limit.
+        limit: usize,
+    },
+    /// No step of any length lowered the cost.
+    Stalled {
+        /// The damping of the last try.
+        damping: f64,
+        /// The largest that is tried.
+        threshold: f64,
+    },
+    /// The normal equations could not be factorised with any damping.
+    Singular {
+        /// The damping of the last try.
+        damping: f64,
+        /// The largest that is tried.
+        threshold: f64,
+    },
+    /// A cost or pose was not a number.
+    NotFinite {
+        /// The cost at that moment.
+        chi2: f64,
+    },
+    /// There were not as many start poses as vertices.
+    StartMissing {
+        /// Number of start poses.
+        poses: usize,
+        /// Number of vertices.
+        vertices: usize,
+    },
+}
+
+impl Termination {
+    /// Whether the poses are a stationary point to the asked precision.
+    pub fn is_converged(self) -> bool {
+        matches!(self, Self::CostConverged { .. } | Self::StepConverged { .. } | Self::NothingToDo)
+    }
+
+    /// A name for reports: `cost_converged`, `iteration_limit` and so on.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::CostConverged { .. } => "cost_converged",
+            Self::StepConverged { .. } => "step_converged",
+            Self::NothingToDo => "nothing_to_do",
+            Self::IterationLimit { .. } => "iteration_limit",
+            Self::Stalled { .. } => "stalled",
+            Self::Singular { .. } => "singular",
+            Self::NotFinite { .. } => "not_finite",
+            Self::StartMissing { .. } => "start_missing",
+        }
+    }
+}
+
+/// One iteration: one linearisation and one factorisation, whether its step was taken or not.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Iteration {
+    /// Counts from 1.
+    pub index: usize,
+    /// Cost before the step, with losses and weights.
+    pub cost_before: f64,
+    /// Cost at the end of the step, whether it was taken or not.
+    pub cost: f64,
+    /// Damping of the normal equations; the radius of the trust region for dogleg.
+    pub damping: f64,
+    /// Length of the step over all vertices.
+    pub step_norm: f64,
+    /// Largest entry of the step, metres or radians.
+    pub step_max: f64,
+    /// Largest entry of the gradient of half the cost.
+    pub gradient_max: f64,
+    /// How much of the decrease that the linear model promised came true.
+    pub gain_ratio: f64,
+    /// Whether the step was taken.
+    pub accepted: bool,
+}
+
+/// What was done about information matrices that are not what they should be.
+///
+/// Each is replaced by its symmetric part; where that has negative eigenvalues, by the nearest
+/// positive semidefinite matrix, which sets them to 0. Factors that are not finite, lead from a
+/// vertex to itself or to a vertex that does not exist are left out.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct InformationPolicy {
+    /// Factors whose matrix was not symmetric.
+    pub symmetrised: usize,
+    /// Factors whose matrix had an eigenvalue below 0.
+    pub projected: usize,
+    /// The smallest eigenvalue that was set to 0, or 0.
+    pub smallest_eigenvalue: f64,
+    /// Indices of factors that were left out.
+    pub left_out: Vec<usize>,
+}
+
+/// What an optimisation did, and why it ended.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Report {
+    /// Why it ended.
+    pub termination: Termination,
+    /// `χ²` of the start without losses and weights, with information matrices as used.
+    pub chi2_initial: f64,
+    /// `χ²` of the result without losses and weights, with information matrices as used.
+    pub chi2: f64,
+    /// Cost of the result with losses and weights: what was minimised.
+    pub cost: f64,
+    /// Every iteration in order.
+    pub iterations: Vec<Iteration>,
+    /// Indices of the vertices that were held: the fixed ones, and the first of each component
+    /// that has none.
+    pub held: Vec<usize>,
+    /// Number of connected components.
+    pub components: usize,
+    /// What was done about information matrices.
+    pub information: InformationPolicy,
+    /// The size of the linear systems.
+    pub fill: Fill,
+}
+
+/// Poses, and how they came about.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Solution<P> {
+    /// `map_from_body` of every vertex.
+    pub poses: Vec<P>,
+    /// Weight of each factor at the end: the given one times that of the loss.
+    pub weights: Vec<f64>,
+    /// What was done, and why it ended.
+    pub report: Report,
+}
