@@ -311,7 +311,8 @@ fn round_and_round(effort: &Effort) {
 /// Points every 3 m or less along the corridor that winds through the six bays.
 fn maze_way() -> Vec<Point2> {
     let (west, east) = (2.9, 27.9);
-    let mut corners = vec![Point2::new(15.1, 3.1)];
+    // From where the robot starts to the end of its bay first, so that nothing is left unseen.
+    let mut corners = vec![Point2::new(15.1, 3.1), Point2::new(west, 3.1)];
     for (bay, y) in [3.1, 8.0, 13.0, 18.0, 23.0, 28.0].into_iter().enumerate() {
         let (from, to) = if bay % 2 == 0 { (west, east) } else { (east, west) };
         if bay > 0 {

@@ -4,7 +4,7 @@ use explore::{ExploreParams, Policy};
 use maps2d::grid::GridParams;
 use maps2d::relative::{Certainty, RelativeParams};
 use maps2d::volume::{OcclusionRule, Options, VolumeParams};
-use metrics::CoverageParams;
+use metrics::{CellShape, CoverageParams};
 use worlds::generate::{
     CavesParams, CorridorParams, MazeParams, PillarShape, PillarsParams, RoomsParams,
 };
@@ -81,7 +81,14 @@ impl From<&Metrics> for CoverageParams {
             Rule::Rays => metrics::Rule::Rays,
             Rule::View => metrics::Rule::View,
         };
-        Self { cell_m: metrics.cell_m, rule }
+        let cells = match (metrics.grid, metrics.cell_m) {
+            (Some([columns, rows]), _) => {
+                CellShape::Grid { columns: columns as usize, rows: rows as usize }
+            }
+            (None, Some(side_m)) => CellShape::Square { side_m },
+            (None, None) => CoverageParams::default().cells,
+        };
+        Self { cells, rule }
     }
 }
 
@@ -115,6 +122,7 @@ impl Config {
                 sigma_rotation_rad: known * self.odometry.sigma_rotation.to_radians(),
             },
             retire: map.retire,
+            idle_scans: RelativeParams::default().idle_scans,
         })
     }
 }
@@ -243,6 +251,13 @@ mod tests {
             sigma_rotation_rad: 2.5_f64.to_radians(),
         };
         assert_eq!(certainty, Some(expected));
+    }
+
+    #[test]
+    fn a_grid_takes_the_place_of_the_side_of_a_cell() {
+        let metrics = Metrics { cell_m: None, grid: Some([25, 20]), ..Metrics::default() };
+        let cells = CellShape::Grid { columns: 25, rows: 20 };
+        assert_eq!(CoverageParams::from(&metrics).cells, cells);
     }
 
     #[test]

@@ -69,6 +69,7 @@ impl RelativeMap {
         if let Some(left) = self.stood.replace(vertex)
             && left != vertex
         {
+            self.retire_idle(probe);
             self.retire_if_spent(left, probe);
         }
     }

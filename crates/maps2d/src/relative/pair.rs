@@ -56,7 +56,10 @@ impl RelativeMap {
             let counted_less = self.remeasure(vertex);
             for &(_, by) in touched[i..end].iter().filter(|(_, by)| *by != vertex) {
                 let Some(state) = self.volumes[by].as_deref_mut() else { continue };
-                state.closed_others |= counted_less;
+                if counted_less {
+                    state.closed_others = true;
+                    state.idle_scans = 0;
+                }
                 if let Err(at) = state.closed_in.binary_search(&vertex) {
                     state.closed_in.insert(at, vertex);
                 }

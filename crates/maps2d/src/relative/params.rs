@@ -20,6 +20,9 @@ pub struct RelativeParams {
     pub certainty: Certainty,
     /// Whether volumes that add nothing are taken out of later comparisons.
     pub retire: bool,
+    /// A volume without frontier of its own that counts is taken out after it was of no use to so
+    /// many others that came into its scope.
+    pub idle_scans: u32,
 }
 
 /// Frontier counts as inside another volume only if it stays inside when their relative pose is
@@ -48,6 +51,7 @@ impl Default for RelativeParams {
             sliver_m: 0.4,
             certainty: Certainty::default(),
             retire: true,
+            idle_scans: 40,
         }
     }
 }

@@ -1,11 +1,16 @@
 //! Volumes that add nothing are taken out of later comparisons, so that going round and round in
 //! known space costs no more each time.
 //!
-//! A volume is spent when, as the robot leaves it, none of its own frontier counts any more and the
-//! active volumes account without it for everything that it closed (`is_missed` does the sum: it
-//! opens those parts on a copy and closes them again). It is retired: it takes no part in
-//! comparisons, and its vertex is contracted (`posegraph::Skeleton::retire`). What counts as frontier
-//! stays what it would be if nothing were ever retired:
+//! A volume is spent when none of its own frontier counts any more. It is retired
+//!
+//! - as the robot leaves it, if the active volumes account without it for everything that it closed
+//!   (`is_missed` does the sum: it opens those parts on a copy and closes them again), or
+//! - after it closed nothing that counted for so many scans in its scope (`retire_idle`). Volumes
+//!   that need only each other would stay for ever otherwise: under drift ever more of them.
+//!
+//! A retired volume takes no part in comparisons, and its vertex is contracted
+//! (`posegraph::Skeleton::retire`). What counts as frontier stays what it would be if nothing were
+//! ever retired:
 //!
 //! - *Its own frontier.* None of it counts, and none will: consolidation only closes, and chains
 //!   that lose parts get no longer. Where a part that counts opens again, it is taken in again.
@@ -39,15 +44,19 @@ const MOST_ASKED: usize = 200;
 
 impl RelativeMap {
     pub(super) fn retire_if_spent(&mut self, vertex: VertexId, probe: &mut dyn MapProbe) {
-        if !self.params.retire || !self.is_spent(vertex) || self.is_missed(vertex) {
-            return;
+        if self.params.retire && self.is_spent(vertex) && !self.is_missed(vertex) {
+            self.retire(vertex, probe);
         }
+    }
+
+    fn retire(&mut self, vertex: VertexId, probe: &mut dyn MapProbe) {
         if !self.skeleton.retire(vertex, &mut self.scratch) {
             return;
         }
         if let Some(state) = self.volumes[vertex].as_deref_mut() {
             state.retired = true;
             state.closed_others = false;
+            state.idle_scans = 0;
         }
         self.scope_is_fresh = false;
         if probe::Probe::<ConsolidationEvent<'_>>::on(probe) {
@@ -55,9 +64,28 @@ impl RelativeMap {
         }
     }
 
+    /// Counts for every volume in the scope at hand, but for its root, one scan more for which it was
+    /// of no use; of the spent ones retires that which was of no use for longest, if that is long.
+    pub(super) fn retire_idle(&mut self, probe: &mut dyn MapProbe) {
+        if !self.params.retire {
+            return;
+        }
+        let mut idlest: Option<(u32, VertexId)> = None;
+        for row in 1..self.scope.placed().len() {
+            let vertex = self.scope.placed()[row].vertex;
+            let Some(state) = self.volumes[vertex].as_deref_mut() else { continue };
+            state.idle_scans += 1;
+            if state.idle_scans >= self.params.idle_scans && state.is_spent() {
+                idlest = idlest.max(Some((state.idle_scans, vertex)));
+            }
+        }
+        if let Some((_, vertex)) = idlest {
+            self.retire(vertex, probe);
+        }
+    }
+
     pub(super) fn is_spent(&self, vertex: VertexId) -> bool {
-        self.volume(vertex)
-            .is_some_and(|state| !state.retired && !state.counts() && state.given_up.is_empty())
+        self.volume(vertex).is_some_and(VolumeState::is_spent)
     }
 
     /// Whether frontier would count again somewhere if this volume had closed nothing: whether any

@@ -34,6 +34,8 @@ pub struct VolumeState {
     pub closed_in: Vec<VertexId>,
     /// Whether it is out of later comparisons.
     pub retired: bool,
+    /// How many volumes came into its scope since it last closed frontier that counted.
+    pub idle_scans: u32,
     /// Places that could not be reached, with the radius around them; anchor frame, metres.
     pub given_up: Vec<(Point2, f64)>,
 }
@@ -53,6 +55,7 @@ impl VolumeState {
             closed_others: false,
             closed_in: Vec::new(),
             retired: false,
+            idle_scans: 0,
             given_up: Vec::new(),
         };
         state.measure(sliver_m);
@@ -62,6 +65,12 @@ impl VolumeState {
     /// Whether frontier is left that counts.
     pub fn counts(&self) -> bool {
         self.open_m > 0.0
+    }
+
+    /// Whether it could be retired: it has no say any more, neither by frontier that counts nor by
+    /// places that could not be reached.
+    pub(crate) fn is_spent(&self) -> bool {
+        !self.retired && !self.counts() && self.given_up.is_empty()
     }
 
     /// Whether any frontier is open, slivers included.

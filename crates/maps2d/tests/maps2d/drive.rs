@@ -210,13 +210,15 @@ pub fn params() -> impl Strategy<Value = RelativeParams> {
     let wall = prop_oneof![Just(0.0), Just(0.3)];
     let sliver = prop_oneof![Just(0.0), Just(0.4)];
     let gap = prop_oneof![Just(0.3), Just(1.0)];
-    (radius, wall, sliver, gap, any::<bool>()).prop_map(
-        |(radius_m, wall_m, sliver_m, gap, retire)| {
+    let idle = prop_oneof![Just(2), Just(5), Just(40)];
+    (radius, wall, sliver, gap, any::<bool>(), idle).prop_map(
+        |(radius_m, wall_m, sliver_m, gap, retire, idle_scans)| {
             let mut params = RelativeParams {
                 consolidation_radius_m: radius_m,
                 wall_closing_m: wall_m,
                 sliver_m,
                 retire,
+                idle_scans,
                 ..RelativeParams::default()
             };
             params.volume.occlusion_gap_m = gap;
