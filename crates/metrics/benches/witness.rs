@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use criterion::{BenchmarkId, Criterion};
-use metrics::{Coverage, CoverageParams, Rule, Witness};
+use metrics::{CellShape, Coverage, CoverageParams, Rule, Witness};
 use pose::Se2;
 use probe::VertexId;
 use sensing::Robot;
@@ -33,8 +33,11 @@ fn views(c: &mut Criterion) {
         let mut robot = SimRobot::new(Arc::new(world.clone()), params, 1);
         robot.scan();
         for rule in [Rule::Rays, Rule::View] {
-            let mut coverage = Coverage::new(&world, CoverageParams { cell_m: 0.25, rule })
-                .expect("the cell size is sound");
+            let mut coverage = Coverage::new(
+                &world,
+                CoverageParams { cells: CellShape::Square { side_m: 0.25 }, rule },
+            )
+            .expect("the cell size is sound");
             coverage.see(robot.view(), 0.0);
             group.bench_function(BenchmarkId::new(format!("see_{rule:?}"), size * size), |b| {
                 b.iter(|| coverage.see(robot.view(), 0.0));

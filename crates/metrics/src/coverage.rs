@@ -1,6 +1,6 @@
 //! How much of a place was really seen, and how far the robot had driven at each first sight.
 
-use geometry::Point2;
+use geometry::{Point2, Vector2};
 use worlds::{View, World2d};
 
 use crate::MetricsError;
@@ -18,11 +18,28 @@ pub enum Rule {
     View,
 }
 
+/// How a place is cut into evaluation cells.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum CellShape {
+    /// Squares from the lower-left corner of the bounds; the last ones may reach beyond them.
+    Square {
+        /// Side of a cell, metres, positive.
+        side_m: f64,
+    },
+    /// So many equal cells over the bounds, square or not (\[Zie18\] sec. 3.1 has 25 by 20).
+    Grid {
+        /// Cells side by side, at least 1.
+        columns: usize,
+        /// Cells above each other, at least 1.
+        rows: usize,
+    },
+}
+
 /// How coverage is judged.
 #[derive(Clone, Debug, PartialEq)]
 pub struct CoverageParams {
-    /// Side of the evaluation cells, metres, positive.
-    pub cell_m: f64,
+    /// How the place is cut into evaluation cells.
+    pub cells: CellShape,
     /// When a cell counts as seen.
     pub rule: Rule,
 }
@@ -30,7 +47,7 @@ pub struct CoverageParams {
 impl Default for CoverageParams {
     /// The paper's: 1 m cells, touched by rays.
     fn default() -> Self {
-        Self { cell_m: 1.0, rule: Rule::Rays }
+        Self { cells: CellShape::Square { side_m: 1.0 }, rule: Rule::Rays }
     }
 }
 
@@ -38,7 +55,7 @@ impl Default for CoverageParams {
 ///
 /// Only free cells that the robot could reach count: a cell is free when no obstacle touches its
 /// open interior, and reachable when free cells join it to the start's cell side by side. Cells
-/// are squares over the bounds of the place, row-major from the lowest row.
+/// lie over the bounds of the place, row-major from the lowest row.
 #[derive(Clone, Debug)]
 pub struct Coverage {
     params: CoverageParams,
@@ -56,9 +73,10 @@ impl Coverage {
     /// Nothing seen yet. Linear in the number of cells, and in the length of the walls.
     ///
     /// # Errors
-    /// [`MetricsError::CellSize`] where the cell size is not positive or makes too many cells.
+    /// [`MetricsError::CellSize`] where the side of a square cell is not positive or makes too many
+    /// cells, [`MetricsError::GridSize`] where columns and rows make none or too many.
     pub fn new(world: &World2d, params: CoverageParams) -> Result<Self, MetricsError> {
-        let cells = FreeCells::new(world, params.cell_m)?;
+        let cells = FreeCells::new(world, params.cells)?;
         let count = |marks: &[bool]| marks.iter().filter(|&&mark| mark).count();
         Ok(Self {
             params,
@@ -170,6 +188,11 @@ impl Coverage {
     /// Columns and rows of the evaluation grid.
     pub fn size(&self) -> (usize, usize) {
         (self.cells.columns, self.cells.rows)
+    }
+
+    /// Width and height of a cell, metres.
+    pub fn cell_m(&self) -> Vector2 {
+        self.cells.cell_m
     }
 
     /// Centre of a cell in the world frame.

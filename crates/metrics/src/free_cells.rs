@@ -1,38 +1,55 @@
 //! The evaluation grid over a true place: which cells are free, and which can be reached.
 
-use geometry::Point2;
+use geometry::{Point2, Vector2};
 use worlds::World2d;
 
-use crate::MetricsError;
 use crate::traversal::crossed_interiors;
+use crate::{CellShape, MetricsError};
 
 /// Most evaluation cells: about two gigabytes.
 const MAX_CELLS: usize = 200_000_000;
 
-/// Square cells over the bounds of a place; row 0 is the lowest, indices are row-major.
+/// Equal cells over the bounds of a place; row 0 is the lowest, indices are row-major.
 #[derive(Clone, Debug)]
 pub(crate) struct FreeCells {
     pub(crate) columns: usize,
     pub(crate) rows: usize,
-    pub(crate) cell_m: f64,
+    /// Width and height of a cell.
+    pub(crate) cell_m: Vector2,
     pub(crate) low_in_world: Point2,
     pub(crate) free: Vec<bool>,
     pub(crate) reachable: Vec<bool>,
 }
 
+/// Columns, rows, and the width and height of a cell, over bounds of this extent.
+fn cut(extent_m: &Vector2, shape: CellShape) -> Result<(usize, usize, Vector2), MetricsError> {
+    match shape {
+        CellShape::Square { side_m } => {
+            // A whole number of cells must not become one more by rounding.
+            let count = |extent_m: f64| (extent_m / side_m - 1e-6).ceil().max(1.0);
+            let (columns, rows) = (count(extent_m.x), count(extent_m.y));
+            let cells = columns * rows;
+            let positive = side_m.is_finite() && side_m > 0.0;
+            if !positive || cells.is_nan() || cells > MAX_CELLS as f64 {
+                return Err(MetricsError::CellSize { cell_m: side_m, cells, limit: MAX_CELLS });
+            }
+            Ok((columns as usize, rows as usize, Vector2::new(side_m, side_m)))
+        }
+        CellShape::Grid { columns, rows } => {
+            if !columns.checked_mul(rows).is_some_and(|cells| (1..=MAX_CELLS).contains(&cells)) {
+                return Err(MetricsError::GridSize { columns, rows, limit: MAX_CELLS });
+            }
+            let cell_m = Vector2::new(extent_m.x / columns as f64, extent_m.y / rows as f64);
+            Ok((columns, rows, cell_m))
+        }
+    }
+}
+
 impl FreeCells {
     /// Linear in the number of cells and in the length of the walls counted in cells.
-    pub(crate) fn new(world: &World2d, cell_m: f64) -> Result<Self, MetricsError> {
+    pub(crate) fn new(world: &World2d, shape: CellShape) -> Result<Self, MetricsError> {
         let (low, high) = world.bounds();
-        // A whole number of cells must not become one more by rounding.
-        let count = |extent_m: f64| (extent_m / cell_m - 1e-6).ceil().max(1.0);
-        let (columns, rows) = (count(high.x - low.x), count(high.y - low.y));
-        let count = columns * rows;
-        let positive = cell_m.is_finite() && cell_m > 0.0;
-        if !positive || count.is_nan() || count > MAX_CELLS as f64 {
-            return Err(MetricsError::CellSize { cell_m, cells: count, limit: MAX_CELLS });
-        }
-        let (columns, rows) = (columns as usize, rows as usize);
+        let (columns, rows, cell_m) = cut(&(high - low), shape)?;
         let mut cells = Self {
             columns,
             rows,
@@ -43,7 +60,7 @@ impl FreeCells {
         };
         for row in 0..rows {
             let first = cells.centre(row * columns);
-            cells.free.extend(world.solid().free_in_row(&first, cell_m, columns));
+            cells.free.extend(world.solid().free_in_row(&first, cell_m.x, columns));
         }
         for (a, b) in world.obstacles() {
             let (a, b) = (cells.in_cells(a), cells.in_cells(b));
@@ -61,14 +78,14 @@ impl FreeCells {
     pub(crate) fn centre(&self, index: usize) -> Point2 {
         let (column, row) = (index % self.columns, index / self.columns);
         Point2::new(
-            self.low_in_world.x + (column as f64 + 0.5) * self.cell_m,
-            self.low_in_world.y + (row as f64 + 0.5) * self.cell_m,
+            self.low_in_world.x + (column as f64 + 0.5) * self.cell_m.x,
+            self.low_in_world.y + (row as f64 + 0.5) * self.cell_m.y,
         )
     }
 
-    /// A world point in units of cells from the lower-left corner.
+    /// A world point in units of cells from the lower-left corner: what is straight stays so.
     pub(crate) fn in_cells(&self, point_in_world: &Point2) -> Point2 {
-        Point2::from((point_in_world - self.low_in_world) / self.cell_m)
+        Point2::from((point_in_world - self.low_in_world).component_div(&self.cell_m))
     }
 
     /// Index of a cell inside the grid.

@@ -8,7 +8,7 @@ mod verdict;
 mod view_fill;
 mod witness;
 
-pub use coverage::{Coverage, CoverageParams, Rule};
+pub use coverage::{CellShape, Coverage, CoverageParams, Rule};
 pub use error::MetricsError;
 pub use verdict::Verdict;
 pub use witness::Witness;

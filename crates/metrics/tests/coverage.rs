@@ -3,12 +3,16 @@
 use std::sync::Arc;
 
 use geometry::{Point2, Vector2};
-use metrics::{Coverage, CoverageParams, MetricsError, Rule, Verdict, View, Witness};
+use metrics::{CellShape, Coverage, CoverageParams, MetricsError, Rule, Verdict, View, Witness};
 use pose::Se2;
 use probe::VertexId;
 use proptest::prelude::*;
 use sensing::Robot;
 use worlds::{CellMap, OdometryParams, RobotParams, SensorParams, SimRobot, World2d};
+
+fn square(side_m: f64) -> CellShape {
+    CellShape::Square { side_m }
+}
 
 fn still() -> OdometryParams {
     OdometryParams { scale: 0.0, ..OdometryParams::default() }
@@ -48,7 +52,7 @@ proptest! {
     #[test]
     fn a_cell_is_free_when_every_raster_cell_in_it_is(cells in cell_map(), k in 1..4usize) {
         let Some(world) = world(&cells) else { return Ok(()) };
-        let params = CoverageParams { cell_m: cells.cell_m * k as f64, rule: Rule::Rays };
+        let params = CoverageParams { cells: square(cells.cell_m * k as f64), rule: Rule::Rays };
         let coverage = Coverage::new(&world, params).expect("the cell size is sound");
         let (columns, rows) = coverage.size();
         prop_assert_eq!((columns, rows), (cells.columns.div_ceil(k), cells.rows.div_ceil(k)));
@@ -87,7 +91,7 @@ proptest! {
     ) {
         let Some(world) = world(&cells) else { return Ok(()) };
         let cell_m = cells.cell_m;
-        let coverage = Coverage::new(&world, CoverageParams { cell_m, rule: Rule::Rays }).expect("the cell size is sound");
+        let coverage = Coverage::new(&world, CoverageParams { cells: square(cell_m), rule: Rule::Rays }).expect("the cell size is sound");
         let params = RobotParams { odometry: still(), ..RobotParams::default() };
         let mut witness = Witness::new(SimRobot::new(Arc::new(world), params, seed), coverage);
         let mut crossed = vec![false; cells.solid.len()];
@@ -124,7 +128,7 @@ proptest! {
     ) {
         let Some(world) = world(&cells) else { return Ok(()) };
         let cell_m = cells.cell_m / k as f64;
-        let coverage = Coverage::new(&world, CoverageParams { cell_m, rule: Rule::View }).expect("the cell size is sound");
+        let coverage = Coverage::new(&world, CoverageParams { cells: square(cell_m), rule: Rule::View }).expect("the cell size is sound");
         let sensor = SensorParams { fov_rad: fov_deg.to_radians(), rays, ..SensorParams::default() };
         let params = RobotParams { odometry: still(), sensor, ..RobotParams::default() };
         let mut witness = Witness::new(SimRobot::new(Arc::new(world), params, 1), coverage);
@@ -292,8 +296,9 @@ fn a_ray_onto_a_wall_along_a_cell_border_does_not_see_behind_it() {
     // A wall from x = 3 to x = 3.1; the cells behind it are seen by no ray from the left.
     let rings = vec![ring(0.0, 8.0), ring(3.0, 3.1)];
     let world = World2d::from_polygons("wall", rings, Se2::new(0.5, 2.5, 0.0)).unwrap();
-    let mut coverage = Coverage::new(&world, CoverageParams { cell_m: 0.1, rule: Rule::Rays })
-        .expect("the cell size is sound");
+    let mut coverage =
+        Coverage::new(&world, CoverageParams { cells: square(0.1), rule: Rule::Rays })
+            .expect("the cell size is sound");
     let mut robot = SimRobot::new(Arc::new(world), RobotParams::default(), 1);
     robot.scan();
     coverage.see(robot.view(), 0.0);
@@ -306,10 +311,93 @@ fn a_ray_onto_a_wall_along_a_cell_border_does_not_see_behind_it() {
 fn cell_sizes_that_make_no_grid_are_refused() {
     let world = worlds::paper::maze();
     for cell_m in [0.0, -1.0, f64::NAN, f64::INFINITY, 1e-6] {
-        let refused = Coverage::new(&world, CoverageParams { cell_m, rule: Rule::Rays });
+        let refused =
+            Coverage::new(&world, CoverageParams { cells: square(cell_m), rule: Rule::Rays });
         assert!(matches!(refused, Err(MetricsError::CellSize { .. })), "{cell_m}");
     }
+    for (columns, rows) in [(0, 5), (5, 0), (1_000_000, 1_000_000), (usize::MAX, 2)] {
+        let cells = CellShape::Grid { columns, rows };
+        let refused = Coverage::new(&world, CoverageParams { cells, rule: Rule::Rays });
+        assert!(matches!(refused, Err(MetricsError::GridSize { .. })), "{columns} by {rows}");
+    }
     // Larger than the place: one cell, which the walls cut.
-    let coverage = Coverage::new(&world, CoverageParams { cell_m: 100.0, rule: Rule::Rays });
+    let coverage = Coverage::new(&world, CoverageParams { cells: square(100.0), rule: Rule::Rays });
     assert_eq!(coverage.map(|coverage| coverage.cells_total()), Ok(0));
+}
+
+#[test]
+fn a_grid_of_the_thesis_counts_what_no_block_touches() {
+    // 30 m by 30 m in 25 by 20 cells of 1.2 m by 1.5 m. The blocks span x from 5 to 10 and from 20
+    // to 25, y from 20 to 25: columns 4 to 8 and 16 to 20, rows 13 to 16.
+    let coverage = Coverage::new(
+        &worlds::thesis::first(),
+        CoverageParams { cells: CellShape::Grid { columns: 25, rows: 20 }, rule: Rule::Rays },
+    )
+    .expect("the grid is sound");
+    assert_eq!(coverage.size(), (25, 20));
+    assert!((coverage.cell_m() - Vector2::new(1.2, 1.5)).norm() < 1e-12);
+    assert_eq!(coverage.cells_total(), 25 * 20 - 2 * 5 * 4);
+    assert_eq!(coverage.cells_reachable(), coverage.cells_total());
+    for (column, row, counts) in [(3, 13, true), (4, 12, true), (4, 13, false), (20, 16, false)] {
+        assert_eq!(coverage.counts(row * 25 + column), counts, "{column}, {row}");
+    }
+    assert!((coverage.centre_in_world(13 * 25 + 4) - Point2::new(5.4, 20.25)).norm() < 1e-12);
+}
+
+/// A hall of 8 m by 8 m with at most one block in each of its quarters.
+fn hall(blocks: &[Option<[f64; 4]>], squeeze: f64) -> World2d {
+    let ring = |x: f64, y: f64, width: f64, height: f64| {
+        [(x, y), (x + width, y), (x + width, y + height), (x, y + height)]
+            .map(|(x, y)| Point2::new(x * squeeze, y))
+            .to_vec()
+    };
+    let mut rings = vec![ring(0.0, 0.0, 8.0, 8.0)];
+    for (quarter, block) in blocks.iter().enumerate() {
+        let (x, y) = ((quarter % 2) as f64 * 4.0, (quarter / 2) as f64 * 4.0);
+        let Some([left, low, width, height]) = *block else { continue };
+        rings.push(ring(x + 0.5 + left, y + 0.5 + low, width, height));
+    }
+    let start = Se2::new(4.1 * squeeze, 0.25, 0.0);
+    World2d::from_polygons("hall", rings, start).expect("the start is free")
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(200))]
+
+    #[test]
+    fn cells_that_are_not_square_see_what_square_ones_see_of_the_place_before_it_was_squeezed(
+        blocks in prop::collection::vec(prop::option::of([0.0..1.5f64, 0.0..1.5, 0.1..1.5, 0.1..1.5]), 4),
+        count in 1..12usize, squeeze in 0.2..5.0f64,
+        ends in prop::collection::vec((-1.0..9.0f64, 0.5..9.0f64, any::<bool>()), 1..20),
+    ) {
+        // A straight line stays straight, and what it crosses stays crossed.
+        let (even, narrow) = (hall(&blocks, 1.0), hall(&blocks, squeeze));
+        let origin = even.world_from_start();
+        let mut ends = ends;
+        let bearing = |end: &(f64, f64, bool)| (end.1 - 0.25).atan2(end.0 - 4.1);
+        ends.sort_by(|a, b| bearing(a).total_cmp(&bearing(b)));
+        let view = |squeeze: f64| View {
+            world_from_sensor: Se2::new(origin.translation.x * squeeze, origin.translation.y, 0.0),
+            ends_in_world: ends.iter().map(|end| Point2::new(end.0 * squeeze, end.1)).collect(),
+            hit: ends.iter().map(|end| end.2).collect(),
+            bearing_step_rad: 0.1,
+            full_circle: false,
+        };
+        for rule in [Rule::Rays, Rule::View] {
+            let cells = square(8.0 / count as f64);
+            let mut by_square = Coverage::new(&even, CoverageParams { cells, rule }).expect("sound");
+            let cells = CellShape::Grid { columns: count, rows: count };
+            let mut by_grid = Coverage::new(&narrow, CoverageParams { cells, rule }).expect("sound");
+            prop_assert_eq!(by_square.size(), by_grid.size());
+            // Where a block cuts the start's cell, the nearest is another in the squeezed place.
+            prop_assume!(by_square.counts((4.1 / 8.0 * count as f64) as usize));
+            by_square.see(&view(1.0), 1.0);
+            by_grid.see(&view(squeeze), 1.0);
+            for index in 0..count * count {
+                prop_assert_eq!(by_square.counts(index), by_grid.counts(index));
+                let seen = (by_square.first_seen_m(index), by_grid.first_seen_m(index));
+                prop_assert_eq!(seen.0, seen.1, "{:?} {}", rule, index);
+            }
+        }
+    }
 }

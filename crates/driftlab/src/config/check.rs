@@ -122,6 +122,10 @@ fn between_keys(config: &Config, faults: &mut Vec<Fault>) {
         let expected = format!("\"each\" or a map of this config: {}", names.join(", "));
         faults.push(fault("compare.drive", format!("{drive:?}"), expected));
     }
+    if let (Some([columns, rows]), Some(_)) = (config.metrics.grid, config.metrics.cell_m) {
+        let found = format!("[{columns}, {rows}] beside `metrics.cell_m`");
+        faults.push(fault("metrics.grid", found, "one of the two".into()));
+    }
     let generator = config.world.as_ref().map(check_generator);
     if let Some((key, Err(WorldError::Parameter { field, found, expected }))) = generator {
         let path = join(key, field);

@@ -95,6 +95,7 @@ impl Loaded {
             let over = moved(parsed.into_inner(), base);
             one_variant_each(&over, &sources)?;
             not_yet(&over, &sources)?;
+            drop_alternatives(&mut document, &over);
             lay_over(&mut document, over);
         }
 
@@ -104,6 +105,9 @@ impl Loaded {
             Config::deserialize(parser).map_err(|error| explained(&error, 0, &sources, &spans))?;
         if !spans.contains_key("name") {
             config.name = name_of(path);
+        }
+        if config.metrics.grid.is_some() && !spans.contains_key("metrics.cell_m") {
+            config.metrics.cell_m = None;
         }
         let loaded =
             Self { config, path: path.to_owned(), spans, sources, header: header_of(text) };
@@ -193,6 +197,20 @@ fn drop_file_keys(document: &mut DeTable<'_>, kind: &str) {
         if let DeValue::Table(table) = parameters.get_mut() {
             table.remove("file");
             table.remove("yaml");
+        }
+    }
+}
+
+/// A size of the evaluation cells that the command line gives replaces the file's, whichever of the
+/// two keys either uses.
+fn drop_alternatives(document: &mut DeTable<'_>, over: &DeTable<'_>) {
+    let Some(new) = table_at(over, "metrics") else { return };
+    let Some(DeValue::Table(old)) = document.get_mut("metrics").map(Spanned::get_mut) else {
+        return;
+    };
+    for (one, other) in [("grid", "cell_m"), ("cell_m", "grid")] {
+        if new.contains_key(one) {
+            old.remove(other);
         }
     }
 }

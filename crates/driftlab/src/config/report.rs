@@ -1,7 +1,8 @@
 //! How maps are compared, judged and recorded.
 
 use schemars::JsonSchema;
-use serde::{Deserialize, Serialize};
+use serde::de::Error as _;
+use serde::{Deserialize, Deserializer, Serialize};
 
 /// How several maps share the experiment.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -23,16 +24,32 @@ impl Default for Compare {
 #[serde(deny_unknown_fields, default)]
 pub struct Metrics {
     /// Side of the cells that coverage is counted in, metres.
+    #[serde(skip_serializing_if = "Option::is_none")]
     #[schemars(extend("exclusiveMinimum" = 0.0))]
-    pub cell_m: f64,
+    pub cell_m: Option<f64>,
+    /// Columns and rows of cells, in place of `cell_m`: equal ones over the extent of the world,
+    /// square or not (\[Zie18\] 3.1).
+    #[serde(skip_serializing_if = "Option::is_none", deserialize_with = "columns_and_rows")]
+    #[schemars(inner(range(min = 1)))]
+    pub grid: Option<[u32; 2]>,
     /// When a cell counts as seen.
     pub rule: Rule,
 }
 
 impl Default for Metrics {
     fn default() -> Self {
-        Self { cell_m: 1.0, rule: Rule::Rays }
+        Self { cell_m: Some(1.0), grid: None, rule: Rule::Rays }
     }
+}
+
+fn columns_and_rows<'de, D: Deserializer<'de>>(input: D) -> Result<Option<[u32; 2]>, D::Error> {
+    // A plain `[u32; 2]` would take the first two numbers of a longer list and drop the rest.
+    let list = Vec::<u32>::deserialize(input)?;
+    let wrong = |list: Vec<u32>| {
+        let found = format!("a list of {} numbers", list.len());
+        D::Error::custom(format!("{found}, expected two numbers, [columns, rows]"))
+    };
+    list.try_into().map(Some).map_err(wrong)
 }
 
 /// When a cell counts as seen.

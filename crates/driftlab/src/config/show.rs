@@ -121,7 +121,7 @@ fn aligned(lines: &[Line]) -> String {
 
 /// Every key with its default and what it means, as a config that runs.
 ///
-/// Variants and maps that are not the default stand there as comments.
+/// Variants, maps and keys that are not the default stand there as comments.
 pub fn defaults_toml() -> String {
     let mut out = String::from(
         "# Every key of a config, its default and its meaning. Tables that start with `#` are not\n\
@@ -170,12 +170,24 @@ fn optional_tables() -> Vec<(&'static str, bool, toml::Table)> {
     ]
 }
 
+/// Examples of keys that a config may leave out, in tables that it may not.
+fn optional_keys() -> [(&'static str, Value); 1] {
+    [("metrics.grid", Value::Array(vec![Value::Integer(25), Value::Integer(20)]))]
+}
+
 fn write_defaults(node: &'static Json, defaults: &toml::Table, path: &str, out: &mut String) {
     let is_table =
         |child: &'static Json| !properties(child).is_empty() && resolved(child)["type"] != "string";
     for property in properties(node) {
-        if let Some(value) = defaults.get(property.key).filter(|_| !is_table(property.node)) {
-            write_key(&property, value, true, out);
+        if is_table(property.node) {
+            continue;
+        }
+        let path = join(path, property.key);
+        let example = optional_keys().into_iter().find(|(name, _)| *name == path);
+        match (defaults.get(property.key), example) {
+            (Some(value), _) => write_key(&property, value, true, out),
+            (None, Some((_, value))) => write_key(&property, &value, false, out),
+            (None, None) => {}
         }
     }
     for Property { key, node: child, about } in properties(node) {

@@ -82,6 +82,18 @@ fn a_map_file_replaces_world_and_start_but_keeps_what_fits_it() {
 }
 
 #[test]
+fn a_grid_replaces_the_side_of_a_cell_and_the_other_way_round() {
+    let grid = format!("{MAZE}[metrics]\ngrid = [25, 20]\n");
+    let loaded = load(&grid, &[]).unwrap();
+    assert_eq!((loaded.config.metrics.grid, loaded.config.metrics.cell_m), (Some([25, 20]), None));
+    assert_eq!(load(&resolved_toml(&loaded), &[]).unwrap().config, loaded.config);
+    let loaded = load(&grid, &["metrics.cell_m=0.5"]).unwrap();
+    assert_eq!((loaded.config.metrics.grid, loaded.config.metrics.cell_m), (None, Some(0.5)));
+    let loaded = load(&format!("{MAZE}[metrics]\ncell_m = 2\n"), &["metrics.grid=[3, 4]"]).unwrap();
+    assert_eq!((loaded.config.metrics.grid, loaded.config.metrics.cell_m), (Some([3, 4]), None));
+}
+
+#[test]
 fn files_are_relative_to_the_config() {
     let text = "[world.image]\nfile = \"floor.png\"\n[map.grid]\n";
     let loaded = Loaded::from_text(Path::new("/etc/a.toml"), text, &Overrides::default()).unwrap();
@@ -113,6 +125,8 @@ fn each_mistake_gets_one_message_at_its_place() {
     let two = with("[world.maze]\ncolumns = 3\n");
     let (sweep, corrected) = (with("[sweep]\nseeds = 3\n"), with("[map.grid_corrected]\n"));
     let drive = with("[compare]\ndrive = \"grid\"\n");
+    let both = with("[metrics]\ncell_m = 1\ngrid = [25, 20]\n");
+    let no_rows = with("[metrics]\ngrid = [25, 0]\n");
     assert_page!(page(&[
         ("seed = 1\n[sensor]\nfov = 90\n", &[]),
         ("[sensor]\nrange_m = \"far\"\n", &[]),
@@ -136,6 +150,9 @@ fn each_mistake_gets_one_message_at_its_place() {
         (&sweep, &[]),
         (&corrected, &[]),
         (&drive, &[]),
+        (&both, &[]),
+        ("[metrics]\ngrid = [25, 20, 1]\n", &[]),
+        (&no_rows, &[]),
         ("schema = 2\nmaps = 3\n", &[]),
         ("seed = \n", &[]),
         ("seed = 1\nseed = 2\n", &[]),

@@ -25,7 +25,8 @@ impl Experiment {
         let config = loaded.anchored();
         let place = build_place(loaded)?;
         let coverage = Coverage::new(&place.world, (&config.metrics).into()).map_err(|error| {
-            ConfigError::World { place: loaded.place("metrics.cell_m"), message: error.to_string() }
+            let key = if config.metrics.grid.is_some() { "metrics.grid" } else { "metrics.cell_m" };
+            ConfigError::World { place: loaded.place(key), message: error.to_string() }
         })?;
         Ok(Self { config, place, coverage })
     }

@@ -42,7 +42,8 @@ impl Tile {
 /// Cells of a plane with a class each, anywhere; row 0 of a tile is its lowest.
 pub(crate) struct Tiles {
     path: String,
-    cell_m: f64,
+    /// Width and height of a cell.
+    cell_m: Vector2,
     origin: Point2,
     opacity: f32,
     draw_order: f32,
@@ -51,7 +52,7 @@ pub(crate) struct Tiles {
 
 impl Tiles {
     /// No cell yet; `origin` is the lower-left corner of cell (0, 0) in the parent's frame.
-    pub fn new(path: &str, cell_m: f64, origin: Point2, opacity: f32, draw_order: f32) -> Self {
+    pub fn new(path: &str, cell_m: Vector2, origin: Point2, opacity: f32, draw_order: f32) -> Self {
         let path = path.to_owned();
         Self { path, cell_m, origin, opacity, draw_order, tiles: BTreeMap::new() }
     }
@@ -107,10 +108,10 @@ impl Tiles {
             }
             if !std::mem::replace(&mut tile.placed, true) {
                 let extent_m = self.cell_m * SIDE as f64;
-                let corner = self.origin + Vector2::new(key.0 as f64, key.1 as f64) * extent_m;
-                let size = self.cell_m as f32;
+                let corner =
+                    self.origin + Vector2::new(key.0 as f64, key.1 as f64).component_mul(&extent_m);
                 let place = Transform3D::from_translation([corner.x as f32, corner.y as f32, 0.0])
-                    .with_scale([size, size, 1.0]);
+                    .with_scale([self.cell_m.x as f32, self.cell_m.y as f32, 1.0]);
                 fixed(stream, &tile.path, &place)?;
                 let format = rerun::datatypes::ImageFormat::segmentation(
                     [SIDE as u32, SIDE as u32],

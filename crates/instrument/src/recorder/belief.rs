@@ -1,6 +1,6 @@
 //! What a map believes at the end of a step.
 
-use geometry::Point2;
+use geometry::{Point2, Vector2};
 use geometry::planar::Closed;
 use maps2d::grid::{CellState, GridMap};
 use maps2d::relative::{Cause, Closing, RelativeMap, VolumeState};
@@ -166,7 +166,7 @@ impl Belief {
     ) {
         let path = &self.cells_path;
         let cells = self.cells.get_or_insert_with(|| {
-            Tiles::new(path, grid.cells().cell_m(), Point2::origin(), 0.9, -10.0)
+            Tiles::new(path, Vector2::repeat(grid.cells().cell_m()), Point2::origin(), 0.9, -10.0)
         });
         let class = |state: CellState| match state {
             CellState::Unknown => 0,

@@ -53,7 +53,7 @@ impl Truth {
 
         let (columns, rows) = coverage.size();
         self.columns = columns.max(1);
-        let cell_m = coverage.params().cell_m;
+        let cell_m = coverage.cell_m();
         let mut cells =
             Tiles::new(&format!("{}/truth/cells", self.name), cell_m, world.bounds().0, 1.0, -20.0);
         for index in (0..columns * rows).filter(|&index| coverage.counts(index)) {
