@@ -1,7 +1,7 @@
 //! What a map believes at the end of a step.
 
-use geometry::{Point2, Vector2};
 use geometry::planar::Closed;
+use geometry::{Point2, Vector2};
 use maps2d::grid::{CellState, GridMap};
 use maps2d::relative::{Cause, Closing, RelativeMap, VolumeState};
 use pose::Se2;
