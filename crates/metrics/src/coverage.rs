@@ -26,7 +26,7 @@ pub enum CellShape {
         /// Side of a cell, metres, positive.
         side_m: f64,
     },
-    /// So many equal cells over the bounds, square or not (\[Zie18\] sec. 3.1 has 25 by 20).
+    /// So many equal cells over the bounds, square or not (\[Zie18\] sec. 3.2 has 25 by 20).
     Grid {
         /// Cells side by side, at least 1.
         columns: usize,

@@ -28,7 +28,7 @@ pub struct Metrics {
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub cell_m: Option<f64>,
     /// Columns and rows of cells, in place of `cell_m`: equal ones over the extent of the world,
-    /// square or not (\[Zie18\] 3.1).
+    /// square or not (\[Zie18\] 3.2).
     #[serde(skip_serializing_if = "Option::is_none", deserialize_with = "columns_and_rows")]
     #[schemars(inner(range(min = 1)))]
     pub grid: Option<[u32; 2]>,
