@@ -3,17 +3,19 @@
 mod error;
 pub mod factors;
 pub mod initial;
+mod linear;
 mod placement;
 pub mod solvers;
 
 pub use error::PoseGraphError;
 pub use factors::{
-    ErrorKind, Factor, FactorGraph, FactorGraph2, FactorGraph3, Linearized, Manifold,
+    ErrorKind, Factor, FactorGraph, FactorGraph2, FactorGraph3, InformationPolicy, Linearized,
+    Manifold,
 };
 pub use placement::{
     Edge, EdgeKind, Link, Placed, Placement, PoseGraph, Scope, ScopeScratch, Skeleton, Via,
 };
 pub use solvers::{
-    Fill, InformationPolicy, Iteration, Loss, LossOn, OptimizerEvent, Options, Report, Solution,
-    Solver, Termination, optimize, optimize_weighted, optimize_with,
+    Fill, Iteration, Loss, LossOn, OptimizerEvent, Options, Report, Solution, Solver, Termination,
+    optimize, optimize_weighted, optimize_with,
 };

@@ -4,7 +4,7 @@ use std::fmt::Debug;
 
 use pose::nalgebra::{SMatrix, SVector};
 
-use super::ErrorKind;
+use super::{ErrorKind, NormalBlocks};
 
 /// Poses as a Lie group with `D` degrees of freedom, tangent vectors translation first.
 ///
@@ -39,6 +39,15 @@ pub trait Manifold<const D: usize>: Copy + PartialEq + Debug + Send + Sync + 'st
 
     /// The same error with its Jacobians by perturbations on the right of both poses.
     fn linearize(kind: ErrorKind, measured: &Self, from: &Self, to: &Self) -> Linearized<D>;
+
+    /// What a factor with this linearisation adds to the normal equations.
+    #[inline]
+    fn normal_blocks(
+        linearized: &Linearized<D>,
+        information: &SMatrix<f64, D, D>,
+    ) -> NormalBlocks<D> {
+        NormalBlocks::new(linearized, information)
+    }
 }
 
 /// The error of a factor and its derivatives.

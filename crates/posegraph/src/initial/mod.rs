@@ -1,5 +1,7 @@
 //! Start values.
 
+mod components;
 mod odometry;
 
+pub use components::Components;
 pub use odometry::odometry;

@@ -2,8 +2,13 @@
 
 use probe::{Off, Probe};
 
-use super::{Fill, InformationPolicy, OptimizerEvent, Options, Report, Solution, Termination};
-use crate::factors::{FactorGraph, Manifold, chi2};
+use super::problem::Problem;
+use super::state::State;
+use super::{
+    OptimizerEvent, Options, Report, Solution, Solver, Termination, dogleg, gauss_newton,
+    levenberg_marquardt,
+};
+use crate::factors::{FactorGraph, Manifold};
 
 /// Moves the poses of a graph to a minimum of its cost, from `start`.
 ///
@@ -37,18 +42,55 @@ pub fn optimize_weighted<P: Manifold<D>, const D: usize>(
     options: &Options,
     probe: &mut impl for<'a> Probe<OptimizerEvent<'a, P>>,
 ) -> Solution<P> {
-    let chi2 = chi2(graph, start, options.error);
-    let report = Report {
-        termination: Termination::IterationLimit { iterations: 0, limit: options.max_iterations },
-        chi2_initial: chi2,
-        chi2,
-        cost: chi2,
+    let mut problem = Problem::new(graph, weights, options);
+    let count = graph.ids.len();
+    let mut state = State {
+        poses: start.to_vec(),
+        cost: f64::NAN,
+        step: Vec::new(),
+        trial: Vec::new(),
         iterations: Vec::new(),
-        held: Vec::new(),
-        components: 0,
-        information: InformationPolicy::default(),
-        fill: Fill::default(),
+    };
+    let mut chi2_initial = f64::NAN;
+    let termination = if start.len() == count {
+        chi2_initial = problem.chi2(start);
+        state.cost = problem.linearize(start);
+        if probe.on() {
+            probe.emit(OptimizerEvent::Started {
+                poses: start,
+                factor_chi2: &problem.factor_chi2,
+                weights: &problem.weights,
+                fill: problem.fill(),
+            });
+        }
+        if problem.unknowns() == 0 {
+            Termination::NothingToDo
+        } else if state.cost.is_finite() {
+            match options.solver {
+                Solver::GaussNewton => gauss_newton::run(&mut problem, &mut state, options, probe),
+                Solver::LevenbergMarquardt => {
+                    levenberg_marquardt::run(&mut problem, &mut state, options, probe)
+                }
+                Solver::Dogleg => dogleg::run(&mut problem, &mut state, options, probe),
+            }
+        } else {
+            Termination::NotFinite { chi2: state.cost }
+        }
+    } else {
+        Termination::StartMissing { poses: start.len(), vertices: count }
+    };
+    let chi2 = problem.chi2(&state.poses);
+    let report = Report {
+        termination,
+        chi2_initial,
+        chi2,
+        cost: state.cost,
+        iterations: state.iterations,
+        fill: problem.fill(),
+        held: problem.held,
+        components: problem.components,
+        information: problem.information,
     };
     probe.emit(OptimizerEvent::Finished { report: &report });
-    Solution { poses: start.to_vec(), weights: weights.to_vec(), report }
+    Solution { poses: state.poses, weights: problem.weights, report }
 }

@@ -1,6 +1,7 @@
 //! What an optimisation did, and why it ended.
 
 use super::Fill;
+use crate::factors::InformationPolicy;
 
 /// Why an optimisation ended, with the measured value and the threshold it was held against.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -99,23 +100,6 @@ pub struct Iteration {
     pub gain_ratio: f64,
     /// Whether the step was taken.
     pub accepted: bool,
-}
-
-/// What was done about information matrices that are not what they should be.
-///
-/// Each is replaced by its symmetric part; where that has negative eigenvalues, by the nearest
-/// positive semidefinite matrix, which sets them to 0. Factors that are not finite, lead from a
-/// vertex to itself or to a vertex that does not exist are left out.
-#[derive(Clone, Debug, Default, PartialEq)]
-pub struct InformationPolicy {
-    /// Factors whose matrix was not symmetric.
-    pub symmetrised: usize,
-    /// Factors whose matrix had an eigenvalue below 0.
-    pub projected: usize,
-    /// The smallest eigenvalue that was set to 0, or 0.
-    pub smallest_eigenvalue: f64,
-    /// Indices of factors that were left out.
-    pub left_out: Vec<usize>,
 }
 
 /// What an optimisation did, and why it ended.
