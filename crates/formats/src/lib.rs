@@ -4,6 +4,8 @@ pub mod map_yaml;
 pub mod moving_ai;
 pub mod pgm;
 pub mod png;
+pub mod pose_graph;
+pub mod tum;
 
 mod error;
 mod gray;

@@ -1,5 +1,8 @@
 //! What a file is, told by its content first.
 
+use crate::pose_graph::{self, GraphFormat};
+use crate::tum;
+
 /// What a file seems to hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Kind {
@@ -11,6 +14,12 @@ pub enum Kind {
     Png,
     /// A MovingAI grid map.
     MovingAi,
+    /// A pose graph in g2o's dialect.
+    G2o,
+    /// A pose graph in TORO's dialect.
+    Toro,
+    /// A trajectory of TUM's benchmark.
+    Tum,
     /// A TOML file.
     Toml,
     /// None of these.
@@ -34,7 +43,8 @@ fn by_content(bytes: &[u8]) -> Option<Kind> {
     {
         return Some(Kind::Pgm);
     }
-    let head = String::from_utf8_lossy(&bytes[..bytes.len().min(LOOKED_AT)]);
+    let start = &bytes[..bytes.len().min(LOOKED_AT)];
+    let head = String::from_utf8_lossy(start);
     let head = head.trim_start_matches('\u{feff}');
     let lines: Vec<&str> = head
         .lines()
@@ -53,6 +63,12 @@ fn by_content(bytes: &[u8]) -> Option<Kind> {
     };
     if has_key("image") && has_key("resolution") {
         return Some(Kind::MapServerYaml);
+    }
+    match pose_graph::first_tag(start) {
+        Some((GraphFormat::G2o, _)) => return Some(Kind::G2o),
+        Some((GraphFormat::Toro, _)) => return Some(Kind::Toro),
+        None if tum::looks_like(start) => return Some(Kind::Tum),
+        None => {}
     }
     is_toml(&lines).then_some(Kind::Toml)
 }
@@ -93,6 +109,9 @@ fn by_extension(extension: Option<&str>) -> Option<Kind> {
         "pgm" => Some(Kind::Pgm),
         "png" => Some(Kind::Png),
         "map" => Some(Kind::MovingAi),
+        "g2o" => Some(Kind::G2o),
+        "graph" | "toro" => Some(Kind::Toro),
+        "tum" => Some(Kind::Tum),
         "toml" => Some(Kind::Toml),
         _ => None,
     }
@@ -104,7 +123,7 @@ mod tests {
 
     #[test]
     fn content_wins_over_the_name() {
-        let cases: [(&[u8], Kind); 12] = [
+        let cases: [(&[u8], Kind); 16] = [
             (b"\x89PNG\r\n\x1a\n....", Kind::Png),
             (b"P5\n# x\n3 2", Kind::Pgm),
             (b"P2 3 2", Kind::Pgm),
@@ -116,6 +135,10 @@ mod tests {
             (b"image: a.pgm\n", Kind::Unknown),
             (b"# experiment\nschema = 1\n[world.paper]\n", Kind::Toml),
             (b"[world]\nx = 1\n", Kind::Toml),
+            (b"# g\nPARAMS x\nVERTEX_SE2 0 0 0 0\n", Kind::G2o),
+            (b"EDGE3 0 1 ", Kind::Toro),
+            (b"# stamp\n1.5 0 0 0 0 0 0 1\n", Kind::Tum),
+            (b"1.5 0 0 0 0 0 0 1 2\n", Kind::Unknown),
             (b"\xff\xfe\x00", Kind::Unknown),
         ];
         for (bytes, kind) in cases {

@@ -30,10 +30,18 @@ pub fn world_kind_of_file(path: &Path) -> Result<&'static str, ConfigError> {
         Kind::MapServerYaml => Ok("map_server"),
         Kind::Pgm | Kind::Png => Ok("image"),
         Kind::MovingAi => Ok("moving_ai"),
-        kind @ (Kind::Toml | Kind::Unknown) => Err(ConfigError::Value {
-            place: Place::file(path),
-            found: if kind == Kind::Toml { "a TOML file" } else { "no known kind of map" }.into(),
-            expected: expected.into(),
-        }),
+        kind @ (Kind::Toml | Kind::G2o | Kind::Toro | Kind::Tum | Kind::Unknown) => {
+            let found = match kind {
+                Kind::Toml => "a TOML file",
+                Kind::G2o | Kind::Toro => "a pose graph",
+                Kind::Tum => "a trajectory",
+                _ => "no known kind of map",
+            };
+            Err(ConfigError::Value {
+                place: Place::file(path),
+                found: found.into(),
+                expected: expected.into(),
+            })
+        }
     }
 }
