@@ -1,7 +1,14 @@
-//! Start values.
+//! Start values: as the file gives them, along odometry, along a spanning tree.
+//!
+//! 1. [`odometry`]: what the robot believed while it drove; drifts the most, and is what other
+//!    optimisers are measured from.
+//! 2. [`spanning_tree`]: the fewest factors between each vertex and the first of its component.
+//! 3. [`given`](given()): what the file says, completed along factors.
 
 mod components;
 mod odometry;
+mod spanning_tree;
 
 pub use components::Components;
 pub use odometry::odometry;
+pub use spanning_tree::{given, spanning_tree};

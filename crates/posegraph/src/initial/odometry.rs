@@ -4,28 +4,40 @@ use crate::factors::{FactorGraph, Manifold};
 
 /// `map_from_body` of every vertex by following the first factor from each vertex to the next.
 ///
-/// The chain starts at the initial value of vertex 0, or at the identity. It follows the factors
-/// from index `i` to `i + 1`, the first of each where there are several. Where one is missing, a
-/// factor from `i + 1` to `i` is followed backwards; where that is missing too, the vertex gets its
-/// initial value, or else that of the vertex before it.
+/// The chain starts at the initial value of vertex 0, or at the identity. Vertex `i` is placed from
+/// vertex `i - 1` by the first factor from `i - 1` to `i`, or else from `i` to `i - 1`. Where there
+/// is none, a factor to the nearest earlier vertex is taken; where that is missing too, its initial
+/// value, or else the pose of vertex `i - 1`. Cost: linear in vertices and factors.
 pub fn odometry<P: Manifold<D>, const D: usize>(graph: &FactorGraph<P, D>) -> Vec<P> {
     let count = graph.ids.len();
-    let mut steps: Vec<Option<P>> = vec![None; count];
-    let mut backward: Vec<Option<P>> = vec![None; count];
-    for factor in &graph.factors {
-        if factor.to < count && factor.from + 1 == factor.to {
-            steps[factor.to].get_or_insert(factor.from_from_to);
-        } else if factor.from < count && factor.to + 1 == factor.from {
-            backward[factor.from].get_or_insert(factor.from_from_to.inverse());
+    // For each vertex the factor to the nearest earlier one, forward before backward.
+    let mut step: Vec<Option<(usize, bool, usize)>> = vec![None; count];
+    for (index, factor) in graph.factors.iter().enumerate() {
+        let (earlier, later) = (factor.from.min(factor.to), factor.from.max(factor.to));
+        if later >= count || earlier == later || !factor.from_from_to.is_finite() {
+            continue;
+        }
+        let forward = factor.from == earlier;
+        let better = step[later].is_none_or(|(known, known_forward, _)| {
+            earlier > known || (earlier == known && forward && !known_forward)
+        });
+        if better {
+            step[later] = Some((earlier, forward, index));
         }
     }
-    let given = |index: usize| graph.initial.get(index).copied().flatten();
     let mut poses: Vec<P> = Vec::with_capacity(count);
-    for (index, (step, backward)) in steps.iter().zip(&backward).enumerate() {
-        let last = poses.last().copied();
-        let pose = match (last, step.or(*backward)) {
-            (Some(last), Some(step)) => last.compose(&step),
-            (last, _) => given(index).or(last).unwrap_or_else(P::identity),
+    for (vertex, step) in step.iter().enumerate() {
+        let pose = match step {
+            Some((earlier, true, index)) => {
+                poses[*earlier].compose(&graph.factors[*index].from_from_to)
+            }
+            Some((earlier, false, index)) => {
+                poses[*earlier].compose(&graph.factors[*index].from_from_to.inverse())
+            }
+            None => {
+                let initial = graph.initial.get(vertex).copied().flatten();
+                initial.or(poses.last().copied()).unwrap_or_else(P::identity)
+            }
         };
         poses.push(pose);
     }

@@ -24,7 +24,7 @@ pub(super) fn run<P: Manifold<D>, const D: usize>(
     probe: &mut impl for<'e> Probe<OptimizerEvent<'e, P>>,
 ) -> Termination {
     let (mut damping, mut growth) = (FIRST, 2.0);
-    for _ in 0..options.max_iterations {
+    while state.iterations.len() < options.max_iterations {
         let Some(promise) = state.promise(problem, damping) else {
             return Termination::Singular { damping: LARGEST_DAMPING, threshold: LARGEST_DAMPING };
         };

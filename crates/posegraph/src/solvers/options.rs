@@ -6,7 +6,7 @@ use crate::ErrorKind;
 /// How the step of an iteration is found.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Solver {
-    /// Full steps of the normal equations.
+    /// Full steps of the normal equations, downhill or not; reaches furthest from odometry.
     #[default]
     GaussNewton,
     /// Damped steps; a step that raises the cost is taken back.
@@ -28,7 +28,8 @@ pub struct Options {
     pub loss_on: LossOn,
     /// Iterations are ended here.
     pub max_iterations: usize,
-    /// Converged where an iteration changes the cost by at most this share of it.
+    /// Converged where at most this share of the cost is left to gain, by the rate of the last
+    /// iterations.
     pub relative_decrease: f64,
     /// Converged where no entry of a step is longer than this, metres or radians.
     pub step: f64,
@@ -44,7 +45,7 @@ impl Default for Options {
             loss: Loss::None,
             loss_on: LossOn::Closures,
             max_iterations: 100,
-            relative_decrease: 1e-9,
+            relative_decrease: 1e-8,
             step: 1e-9,
             threads: 1,
         }

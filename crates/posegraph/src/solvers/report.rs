@@ -7,9 +7,9 @@ use crate::factors::InformationPolicy;
 #[derive(Clone, Copy, Debug, PartialEq)]
 #[non_exhaustive]
 pub enum Termination {
-    /// The cost hardly changed any more.
+    /// There was hardly anything left to gain.
     CostConverged {
-        /// Change of the cost in the last iteration as a share of it.
+        /// What was left to gain before or after the last step, as a share of the cost.
         relative_decrease: f64,
         /// At most this counts as converged.
         threshold: f64,
