@@ -20,7 +20,7 @@ impl So3 {
         UnitQuaternion::new_unchecked(Quaternion::from_parts(cos, phi * scale))
     }
 
-    /// The rotation vector of length at most π whose [`exp`](Self::exp) is this rotation.
+    /// The rotation vector of length at most π, but for rounding, whose [`exp`](Self::exp) is this rotation.
     ///
     /// Precise to rounding for every angle. At half a turn two vectors have the same exponential;
     /// rounding decides between them.

@@ -12,15 +12,15 @@ pub fn hat(xi: &Vector3<f64>) -> Matrix3<f64> {
 }
 
 /// The exponential of a matrix: its power series after scaling, then squaring.
-pub fn matrix_exp(matrix: &Matrix3<f64>) -> Matrix3<f64> {
+pub fn matrix_exp<const N: usize>(matrix: &SMatrix<f64, N, N>) -> SMatrix<f64, N, N> {
     let mut halvings = 0;
     let mut scaled = *matrix;
     while scaled.amax() > 0.125 {
         scaled *= 0.5;
         halvings += 1;
     }
-    let mut sum = Matrix3::identity();
-    let mut term = Matrix3::identity();
+    let mut sum = SMatrix::<f64, N, N>::identity();
+    let mut term = SMatrix::<f64, N, N>::identity();
     for k in 1..16 {
         term = term * scaled / f64::from(k);
         sum += term;
