@@ -6,6 +6,7 @@ pub mod initial;
 mod linear;
 mod placement;
 pub mod solvers;
+pub mod synthetic;
 
 pub use error::PoseGraphError;
 pub use factors::{
