@@ -30,6 +30,10 @@ pub struct RelativeMap {
     /// Polygons within this distance along the graph are compared, metres (\[ISRR19\] 4.3).
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub consolidation_radius_m: f64,
+    /// As how many metres a metre along a place edge counts in that. Place edges do not drift:
+    /// below 1 polygons are placed along ways with less odometry, rather than along the shortest.
+    #[schemars(extend("exclusiveMinimum" = 0.0), range(max = 1.0))]
+    pub place_weight: f64,
     /// Two neighbouring samples are one wall if their ranges differ by less; metres (\[ISRR19\] 4.1).
     #[schemars(extend("exclusiveMinimum" = 0.0))]
     pub occlusion_gap_m: f64,
@@ -73,6 +77,7 @@ impl Default for RelativeMap {
     fn default() -> Self {
         Self {
             consolidation_radius_m: 10.0,
+            place_weight: 1.0,
             occlusion_gap_m: 1.0,
             strict_margin_m: 0.01,
             wall_closing_m: 0.3,

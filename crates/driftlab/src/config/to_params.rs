@@ -114,6 +114,7 @@ impl Config {
                 },
             },
             consolidation_radius_m: map.consolidation_radius_m,
+            place_weight: map.place_weight,
             wall_closing_m: map.wall_closing_m,
             sliver_m: map.sliver_m,
             certainty: Certainty {

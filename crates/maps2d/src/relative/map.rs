@@ -66,7 +66,8 @@ impl RelativeMap {
             params,
             volumes: IdVec::new(),
             skeleton: empty_skeleton(&params),
-            full: Skeleton::new(2.0 * params.consolidation_radius_m),
+            full: Skeleton::new(2.0 * params.consolidation_radius_m)
+                .weigh_places(params.place_weight),
             book: PathBook::default(),
             scope: Scope::default(),
             scope_is_fresh: false,
@@ -138,7 +139,7 @@ impl RelativeMap {
 
 /// The skeleton of a map without vertices: ways within the scope are kept, give or take a tenth.
 pub(super) fn empty_skeleton(params: &RelativeParams) -> Skeleton {
-    Skeleton::with_stretch(params.consolidation_radius_m, 1.1)
+    Skeleton::with_stretch(params.consolidation_radius_m, 1.1).weigh_places(params.place_weight)
 }
 
 impl ExplorationMap for RelativeMap {

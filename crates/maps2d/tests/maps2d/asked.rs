@@ -30,7 +30,7 @@ proptest! {
                 continue;
             }
             let here = drive.standing.vertex;
-            let distance_m = distances_m(&drive.graph);
+            let distance_m = distances_m(&drive.graph, 1.0);
             let away_m = |vertex: VertexId| distance_m[here.0 as usize][vertex.0 as usize];
             let counting = map.volumes().filter(|(_, state)| state.counts());
             let nearest_m = counting.map(|(vertex, _)| away_m(vertex)).reduce(f64::min);
@@ -46,7 +46,7 @@ proptest! {
                     let mut at = here;
                     for (to, length_m) in legs {
                         let links = map.skeleton().links(at).iter();
-                        let shortest = links.filter(|link| link.to == to).map(|link| link.length_m);
+                        let shortest = links.filter(|link| link.to == to).map(|link| link.driven_m);
                         prop_assert_eq!(shortest.reduce(f64::min), Some(length_m));
                         at = to;
                     }

@@ -103,7 +103,7 @@ pub fn check_reasons(drive: &Drive, map: &RelativeMap) -> Result<(), TestCaseErr
 /// All that lies inside a volume within the scope is closed, and nothing that lies in none within
 /// twice the scope: what is closed is between the two comparisons of all pairs from scratch.
 pub fn check_against_all_pairs(drive: &Drive, map: &RelativeMap) -> Result<(), TestCaseError> {
-    let distance_m = distances_m(&drive.graph);
+    let distance_m = distances_m(&drive.graph, map.params().place_weight);
     let radius_m = map.params().consolidation_radius_m;
     let at = |limit_m: f64, vertex: VertexId, point: &Point2| {
         expected_at(map, &drive.world_from_vertex, &distance_m, limit_m, (vertex, point))

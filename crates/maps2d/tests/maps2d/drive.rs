@@ -211,10 +211,12 @@ pub fn params() -> impl Strategy<Value = RelativeParams> {
     let sliver = prop_oneof![Just(0.0), Just(0.4)];
     let gap = prop_oneof![Just(0.3), Just(1.0)];
     let idle = prop_oneof![Just(2), Just(5), Just(40)];
-    (radius, wall, sliver, gap, any::<bool>(), idle).prop_map(
-        |(radius_m, wall_m, sliver_m, gap, retire, idle_scans)| {
+    let weight = prop_oneof![3 => Just(1.0), 1 => Just(0.3)];
+    (radius, wall, sliver, gap, any::<bool>(), idle, weight).prop_map(
+        |(radius_m, wall_m, sliver_m, gap, retire, idle_scans, place_weight)| {
             let mut params = RelativeParams {
                 consolidation_radius_m: radius_m,
+                place_weight,
                 wall_closing_m: wall_m,
                 sliver_m,
                 retire,

@@ -27,7 +27,7 @@ proptest! {
         for op in &story.ops {
             drive.act(op, &mut [&mut map]);
         }
-        let distance_m = distances_m(&drive.graph);
+        let distance_m = distances_m(&drive.graph, params.place_weight);
         for (vertex, state) in map.volumes() {
             let pieces = map.explain(vertex);
             let mut next = 0;

@@ -5,7 +5,7 @@ use geometry::planar::{StarPolygon, point_segment_distance};
 use maps2d::relative::{Cause, RelativeMap};
 use maps2d::volume::LocalVolume;
 use pose::Se2;
-use posegraph::PoseGraph;
+use posegraph::{EdgeKind, PoseGraph};
 use probe::{EdgeId, VertexId};
 
 /// Points this near to a deciding line are not judged, metres.
@@ -34,8 +34,9 @@ pub fn to_solid_m(volume: &LocalVolume, p: &Point2) -> f64 {
     walls.chain(posts).map(|(a, b)| point_segment_distance(p, &a, &b)).fold(f64::INFINITY, f64::min)
 }
 
-/// Shortest distances over the edges that are not withdrawn, by Floyd and Warshall.
-pub fn distances_m(graph: &PoseGraph) -> Vec<Vec<f64>> {
+/// Shortest distances over the edges that are not withdrawn, by Floyd and Warshall; a metre of a
+/// place edge counts as so many.
+pub fn distances_m(graph: &PoseGraph, place_weight: f64) -> Vec<Vec<f64>> {
     let n = graph.vertex_count();
     let mut distance = vec![vec![f64::INFINITY; n]; n];
     for (i, row) in distance.iter_mut().enumerate() {
@@ -43,7 +44,8 @@ pub fn distances_m(graph: &PoseGraph) -> Vec<Vec<f64>> {
     }
     for (_, edge) in graph.edges().filter(|(_, edge)| !edge.withdrawn) {
         let (a, b) = (edge.a.0 as usize, edge.b.0 as usize);
-        let length = edge.a_from_b.translation.norm();
+        let weight = if edge.kind == EdgeKind::Place { place_weight } else { 1.0 };
+        let length = weight * edge.a_from_b.translation.norm();
         distance[a][b] = distance[a][b].min(length);
         distance[b][a] = distance[b][a].min(length);
     }

@@ -6,19 +6,34 @@ use search::{Graph, Scratch, dijkstra_nearest};
 
 use crate::{Link, Skeleton};
 
-/// The skeleton as the search sees it: links cost their length.
-struct ByLength<'a>(&'a Skeleton);
+/// The skeleton as the search sees it: what its links cost.
+struct Ways<'a> {
+    skeleton: &'a Skeleton,
+    cost_m: fn(&Link) -> f64,
+}
 
-impl Graph for ByLength<'_> {
+impl<'a> Ways<'a> {
+    /// For placement.
+    fn by_length(skeleton: &'a Skeleton) -> Self {
+        Self { skeleton, cost_m: |link| link.length_m }
+    }
+
+    /// For driving.
+    fn as_driven(skeleton: &'a Skeleton) -> Self {
+        Self { skeleton, cost_m: |link| link.driven_m }
+    }
+}
+
+impl Graph for Ways<'_> {
     type Node = VertexId;
 
     fn node_bound(&self) -> usize {
-        self.0.len()
+        self.skeleton.len()
     }
 
     fn for_each_edge(&self, from: VertexId, mut visit: impl FnMut(VertexId, f64)) {
-        for link in self.0.links(from) {
-            visit(link.to, link.length_m);
+        for link in self.skeleton.links(from) {
+            visit(link.to, (self.cost_m)(link));
         }
     }
 }
@@ -131,7 +146,8 @@ impl ScopeScratch {
             count += 1;
             count >= most
         };
-        let found = dijkstra_nearest(&ByLength(skeleton), root, radius_m, full, &mut self.search);
+        let found =
+            dijkstra_nearest(&Ways::by_length(skeleton), root, radius_m, full, &mut self.search);
         let Ok(tree) = found.map(|found| found.tree) else {
             let root_from_vertex = Se2::identity();
             scope.placed.push(Placed {
@@ -178,12 +194,17 @@ impl ScopeScratch {
         b: VertexId,
         limit_m: f64,
     ) -> Option<f64> {
-        let nearest =
-            dijkstra_nearest(&ByLength(skeleton), a, limit_m, |node| node == b, &mut self.search);
+        let nearest = dijkstra_nearest(
+            &Ways::by_length(skeleton),
+            a,
+            limit_m,
+            |node| node == b,
+            &mut self.search,
+        );
         nearest.ok()?.goal.map(|goal| goal.cost)
     }
 
-    /// The shortest way of at most `limit_m` from `root` to a vertex that satisfies `is_goal`: the vertices
+    /// The shortest way to drive, of at most `limit_m`, from `root` to a vertex that satisfies `is_goal`: the vertices
     /// after the root, in driving order, each with the length of the link that leads to it.
     ///
     /// `Some` of an empty way means that the root itself is the goal.
@@ -195,12 +216,14 @@ impl ScopeScratch {
         is_goal: impl FnMut(VertexId) -> bool,
     ) -> Option<Vec<(VertexId, f64)>> {
         let found =
-            dijkstra_nearest(&ByLength(skeleton), root, limit_m, is_goal, &mut self.search).ok()?;
+            dijkstra_nearest(&Ways::as_driven(skeleton), root, limit_m, is_goal, &mut self.search)
+                .ok()?;
         let goal = found.goal?.node;
         let path = found.tree.path_to(goal)?;
         let legs = path.windows(2).map(|pair| {
-            let length_m = shortest_link(skeleton, pair[0], pair[1]).map_or(0.0, |l| l.length_m);
-            (pair[1], length_m)
+            let links = skeleton.links(pair[0]).iter().filter(|link| link.to == pair[1]);
+            let driven_m = links.map(|link| link.driven_m).min_by(f64::total_cmp);
+            (pair[1], driven_m.unwrap_or(0.0))
         });
         Some(legs.collect())
     }

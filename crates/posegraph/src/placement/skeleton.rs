@@ -46,8 +46,11 @@ pub struct Link {
     pub to: VertexId,
     /// Frame of [`to`](Self::to) in the frame of the vertex that holds the link.
     pub here_from_there: Se2,
-    /// Length of the way, metres: the sum over the edges that it stands for.
+    /// Length of the way, metres: the sum over the edges that it stands for, place edges
+    /// [weighed](Skeleton::weigh_places). Placement takes the shortest.
     pub length_m: f64,
+    /// The same sum with nothing weighed, metres: what a robot drives.
+    pub driven_m: f64,
     /// How much of that is odometry, metres: only this drifts.
     pub odometry_m: f64,
     /// The measured edges that the link stands for.
@@ -61,6 +64,7 @@ impl Link {
             to: at,
             here_from_there: Se2::identity(),
             length_m: 0.0,
+            driven_m: 0.0,
             odometry_m: 0.0,
             via: Via::Chain(Arc::new([])),
         }
@@ -72,6 +76,7 @@ impl Link {
             to: next.to,
             here_from_there: self.here_from_there * next.here_from_there,
             length_m: self.length_m + next.length_m,
+            driven_m: self.driven_m + next.driven_m,
             odometry_m: self.odometry_m + next.odometry_m,
             via: self.via.join(&next.via),
         }
@@ -83,6 +88,7 @@ impl Link {
             to: from,
             here_from_there: self.here_from_there.inverse(),
             length_m: self.length_m,
+            driven_m: self.driven_m,
             odometry_m: self.odometry_m,
             via: self.via.reversed(),
         }
@@ -115,6 +121,7 @@ pub struct Skeleton {
     pub(crate) nodes: IdVec<VertexId, Node>,
     pub(crate) horizon_m: f64,
     pub(crate) stretch: f64,
+    pub(crate) place_weight: f64,
     pub(crate) retired: usize,
     pub(crate) whole: bool,
 }
@@ -133,7 +140,17 @@ impl Skeleton {
     /// is passed again and again grow with every pass. At 1.1 they are few: what remains is a
     /// sparse spanner.
     pub fn with_stretch(horizon_m: f64, stretch: f64) -> Self {
-        Self { nodes: IdVec::new(), horizon_m, stretch: stretch.max(1.0), retired: 0, whole: true }
+        let (nodes, stretch) = (IdVec::new(), stretch.max(1.0));
+        Self { nodes, horizon_m, stretch, place_weight: 1.0, retired: 0, whole: true }
+    }
+
+    /// Lets a metre of the place edges that come from now on count as so many, above 0.
+    ///
+    /// Place edges do not drift: where a metre of them counts less than one of odometry, placement
+    /// goes where the covariance along the way is less, as far as it grows with the odometry on it.
+    pub fn weigh_places(mut self, place_weight: f64) -> Self {
+        self.place_weight = place_weight;
+        self
     }
 
     /// Makes room for vertices up to and including `vertex`.
@@ -197,7 +214,8 @@ impl Skeleton {
         let link = Link {
             to: edge.b,
             here_from_there: edge.a_from_b,
-            length_m: edge.length_m,
+            length_m: edge.length_m * if is_odometry { 1.0 } else { self.place_weight },
+            driven_m: edge.length_m,
             odometry_m: if is_odometry { edge.length_m } else { 0.0 },
             via: Via::Edge(id),
         };

@@ -74,8 +74,12 @@ impl Drawn {
 
 /// The skeleton of all edges that are not withdrawn.
 pub fn skeleton_of(graph: &PoseGraph, horizon_m: f64) -> Skeleton {
+    filled(Skeleton::new(horizon_m), graph)
+}
+
+/// An empty skeleton with all edges that are not withdrawn.
+pub fn filled(mut skeleton: Skeleton, graph: &PoseGraph) -> Skeleton {
     let mut scratch = ScopeScratch::default();
-    let mut skeleton = Skeleton::new(horizon_m);
     if graph.vertex_count() > 0 {
         skeleton.cover(VertexId(graph.vertex_count() as u32 - 1));
     }
@@ -95,6 +99,11 @@ pub struct Way {
 
 /// Shortest ways between all vertices, by Floyd and Warshall, composing the poses on the way.
 pub fn all_ways(graph: &PoseGraph) -> Vec<Vec<Option<Way>>> {
+    all_ways_weighing(graph, 1.0)
+}
+
+/// The same where a metre of a place edge counts as so many.
+pub fn all_ways_weighing(graph: &PoseGraph, place_weight: f64) -> Vec<Vec<Option<Way>>> {
     let n = graph.vertex_count();
     let mut ways: Vec<Vec<Option<Way>>> = vec![vec![None; n]; n];
     for (i, row) in ways.iter_mut().enumerate() {
@@ -105,8 +114,11 @@ pub fn all_ways(graph: &PoseGraph) -> Vec<Vec<Option<Way>>> {
     };
     for (_, edge) in graph.edges().filter(|(_, edge)| !edge.withdrawn) {
         let (a, b) = (edge.a.0 as usize, edge.b.0 as usize);
-        let length_m = edge.a_from_b.translation.norm();
-        let odometry_m = if edge.kind == EdgeKind::Odometry { length_m } else { 0.0 };
+        let metres = edge.a_from_b.translation.norm();
+        let (length_m, odometry_m) = match edge.kind {
+            EdgeKind::Odometry => (metres, metres),
+            EdgeKind::Place => (metres * place_weight, 0.0),
+        };
         for (from, to, pose) in [(a, b, edge.a_from_b), (b, a, edge.a_from_b.inverse())] {
             let way = Way { length_m, odometry_m, from_to: pose };
             if shorter(&way, &ways[from][to]) {

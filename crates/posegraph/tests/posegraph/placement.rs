@@ -1,11 +1,13 @@
 //! Placement along shortest paths ([ISRR19] 4.2) and the scope (4.3).
 
-use posegraph::{Scope, ScopeScratch};
+use posegraph::{Scope, ScopeScratch, Skeleton};
 use probe::VertexId;
 use proptest::prelude::*;
 
 use super::config;
-use super::graphs::{all_ways, graphs, near, same_pose, skeleton_of, walk};
+use super::graphs::{
+    all_ways, all_ways_weighing, filled, graphs, near, same_pose, skeleton_of, walk,
+};
 
 const SEEDS: &str = "proptest-regressions/placement.txt";
 
@@ -45,6 +47,32 @@ proptest! {
             prop_assert!(near(row.distance_m, way.length_m));
             prop_assert!(near(row.odometry_m, way.odometry_m));
             prop_assert!(same_pose(&row.root_from_vertex, &way.from_to), "{:?} {:?}", row, way);
+        }
+    }
+
+    /// Where place edges count less, placement goes along what is then shortest; driving does not.
+    #[test]
+    fn weighed_places_change_placement_and_not_driving(
+        drawn in graphs(2..14),
+        place_weight in 0.01..1.0_f64,
+    ) {
+        let graph = drawn.graph();
+        let skeleton = filled(Skeleton::new(20.0).weigh_places(place_weight), &graph);
+        let (mut scope, mut scratch) = (Scope::default(), ScopeScratch::default());
+        scratch.place(&skeleton, VertexId(0), f64::INFINITY, &mut scope);
+        let (weighed, driven) = (all_ways_weighing(&graph, place_weight), all_ways(&graph));
+        let reached = weighed[0].iter().filter(|way| way.is_some()).count();
+        prop_assert_eq!(scope.placed().len(), reached);
+        for row in scope.placed() {
+            let vertex = row.vertex.0 as usize;
+            let way = weighed[0][vertex].unwrap();
+            prop_assert!(near(row.distance_m, way.length_m));
+            prop_assert!(near(row.odometry_m, way.odometry_m));
+            prop_assert!(same_pose(&row.root_from_vertex, &way.from_to), "{:?} {:?}", row, way);
+            let goal = |at: VertexId| at == row.vertex;
+            let legs = scratch.way_to_nearest(&skeleton, VertexId(0), f64::INFINITY, goal).unwrap();
+            let legs_m: f64 = legs.iter().map(|leg| leg.1).sum();
+            prop_assert!(near(legs_m, driven[0][vertex].unwrap().length_m));
         }
     }
 
