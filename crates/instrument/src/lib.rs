@@ -4,6 +4,7 @@ mod columns;
 mod error;
 mod inspect;
 mod layout;
+mod optimisation;
 mod options;
 mod palette;
 mod recorder;
@@ -14,6 +15,7 @@ pub use inspect::{
     Difference, EntityInfo, EventCount, Inspection, TimelineInfo, declared_events, diff,
     fingerprint, inspect,
 };
+pub use optimisation::{DrawnPose, OPTIMIZER_EVENTS, OptimisationOptions, OptimisationRecording};
 pub use options::{Centre, Every, Family, Level, MapOptions, RecordingOptions};
 pub use recorder::{Recorder, StepEnd};
 pub use recording::Recording;

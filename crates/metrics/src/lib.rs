@@ -3,6 +3,7 @@
 mod coverage;
 mod error;
 mod free_cells;
+pub mod trajectory;
 mod traversal;
 mod verdict;
 mod view_fill;

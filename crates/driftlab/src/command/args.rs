@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Parser, Subcommand};
 
+use super::graph::GraphArgs;
+
 const VERSION: &str = if env!("DRIFTLAB_GIT_HASH").is_empty() {
     env!("CARGO_PKG_VERSION")
 } else {
@@ -62,6 +64,8 @@ pub(super) enum Command {
             driftlab run configs/maps/building.toml --world floor.yaml --json"
     )]
     Run(RunArgs),
+    /// Pose-graph files: tell, optimise, compare, convert, make up
+    Graph(GraphArgs),
     /// Tell what a recording holds: entities, timelines, rows, events, final metrics
     Inspect(InspectArgs),
     /// Open a recording in the Rerun viewer

@@ -7,6 +7,7 @@ mod args;
 mod completions;
 mod config;
 mod failure;
+mod graph;
 mod inspect;
 mod out;
 mod progress;
@@ -27,6 +28,7 @@ pub fn main() -> ExitCode {
     let out = Out::new(&cli.global);
     let result = match &cli.command {
         Command::Run(args) => run::run(args, &out),
+        Command::Graph(args) => graph::graph(args, &out),
         Command::Inspect(args) => inspect::inspect(args, &out),
         Command::View(args) => view::view(args, &out),
         Command::Config(args) => config::config(args, &out),

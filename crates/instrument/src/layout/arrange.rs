@@ -84,7 +84,7 @@ impl Layout<'_> {
     }
 
     /// Writes what is around the last container, which holds everything.
-    pub fn finish(&self, follow: bool) -> RecordingStreamResult<()> {
+    pub fn finish(&self, timeline: &str, fps: f64, follow: bool) -> RecordingStreamResult<()> {
         let root = rerun::datatypes::Uuid { bytes: uuid(self.count).1 };
         let viewport = archetypes::ViewportBlueprint::new()
             .with_root_container(root)
@@ -97,8 +97,8 @@ impl Layout<'_> {
         self.stream.log("selection_panel", &panel(hidden))?;
         let time = archetypes::TimePanelBlueprint::new()
             .with_state(slim)
-            .with_timeline("step")
-            .with_fps(8.0)
+            .with_timeline(timeline)
+            .with_fps(fps)
             .with_play_state(if follow {
                 components::PlayState::Following
             } else {

@@ -1,8 +1,10 @@
 //! How a recording opens: its views, and what its text page says.
 
 mod arrange;
+mod graph;
 mod text;
 mod views;
 
+pub(crate) use graph::{GraphLook, send_graph};
 pub(crate) use text::{about, result};
 pub(crate) use views::send;

@@ -39,7 +39,7 @@ fn write(stream: &RecordingStream, options: &RecordingOptions) -> RecordingStrea
     };
     let side = side(&mut layout, options)?;
     layout.container(ContainerKind::Horizontal, &[maps, side], &[3.0, 1.35])?;
-    layout.finish(options.follow)
+    layout.finish("step", 8.0, options.follow)
 }
 
 /// One map: truth and belief, the graph and the single event behind tabs or below.
@@ -202,7 +202,7 @@ fn bounds(low: &Point2, high: &Point2, margin_m: f64) -> VisualBounds2D {
     })
 }
 
-fn background() -> Background {
+pub(super) fn background() -> Background {
     Background::new(BackgroundKind::SolidColor)
         .with_color(rerun::Color::from_u32(palette::BACKGROUND))
 }

@@ -1,0 +1,294 @@
+//! `driftlab graph optimize`: the poses that fit the edges best.
+
+use std::path::PathBuf;
+use std::time::Instant;
+
+use anyhow::anyhow;
+use formats::pose_graph::AnyGraph;
+use instrument::{DrawnPose, InstrumentError, OptimisationOptions, OptimisationRecording};
+use pose::{Se2, Se3};
+use posegraph::factors::{chi2, sesync_cost2, sesync_cost3};
+use posegraph::{
+    ErrorKind, FactorGraph, FactorGraph2, FactorGraph3, Loss, Manifold, Options, Solution, Solver,
+    Termination, optimize_with,
+};
+use serde_json::{Value, json};
+
+use super::super::failure::Failure;
+use super::super::out::Out;
+use super::args::{OptimizeArgs, Robust, SolverName};
+use super::input;
+use super::numbers::{listed, shown};
+use super::output::{self, Target};
+use super::start::start;
+
+/// An edge that weighs less at the end is listed as rejected.
+const REJECTED_BELOW: f64 = 0.5;
+
+pub(super) fn optimize(args: &OptimizeArgs, out: &Out) -> Result<(), Failure> {
+    let target = args.output.as_deref().map(|path| Target::new(path, args.to, args.force));
+    let target = target.transpose()?;
+    if let Some(record) = &args.record {
+        output::free(record, args.force)?;
+    }
+    let input::Timed { read: file, secs: secs_read } = input::graph(&args.file, out)?;
+    let (unknown_tags, warnings) = input::report_json(&file.report);
+    let (solved, done) = match file.graph {
+        AnyGraph::Plane(graph) => solve(graph, args, out)?,
+        AnyGraph::Space(graph) => solve(graph, args, out)?,
+    };
+    let secs_write = target.as_ref().map(|target| {
+        let start = Instant::now();
+        target.write(&solved).map(|()| start.elapsed().as_secs_f64())
+    });
+    let secs_write = secs_write.transpose()?;
+    let mut json = done.json;
+    json["secs_read"] = secs_read.into();
+    json["secs_write"] = secs_write.into();
+    json["unknown_tags"] = unknown_tags;
+    json["warnings"] = warnings;
+    let mut text = done.text;
+    text.push_str(&listed(&[(
+        "seconds",
+        format!("read {secs_read:.4}, start {:.4}, optimise {:.4}", done.secs_init, done.secs_optimize),
+    )]));
+    out.result(&json, &text)?;
+    match done.failure {
+        Some(failure) => Err(failure),
+        None => Ok(()),
+    }
+}
+
+/// What a dimension adds to the optimiser.
+trait Dimension<const D: usize>: Manifold<D> + DrawnPose {
+    fn sesync_cost(graph: &FactorGraph<Self, D>, poses: &[Self]) -> f64;
+    fn any(graph: FactorGraph<Self, D>) -> AnyGraph;
+}
+
+impl Dimension<3> for Se2 {
+    fn sesync_cost(graph: &FactorGraph2, poses: &[Self]) -> f64 {
+        sesync_cost2(graph, poses)
+    }
+    fn any(graph: FactorGraph2) -> AnyGraph {
+        AnyGraph::Plane(graph)
+    }
+}
+
+impl Dimension<6> for Se3 {
+    fn sesync_cost(graph: &FactorGraph3, poses: &[Self]) -> f64 {
+        sesync_cost3(graph, poses)
+    }
+    fn any(graph: FactorGraph3) -> AnyGraph {
+        AnyGraph::Space(graph)
+    }
+}
+
+/// What is told in the end.
+struct Done {
+    json: Value,
+    text: String,
+    secs_init: f64,
+    secs_optimize: f64,
+    failure: Option<Failure>,
+}
+
+/// Optimises a graph; the poses it returns stand as start values in the graph.
+fn solve<P: Dimension<D>, const D: usize>(
+    mut graph: FactorGraph<P, D>,
+    args: &OptimizeArgs,
+    out: &Out,
+) -> Result<(AnyGraph, Done), Failure> {
+    let began = Instant::now();
+    let (poses, init) = start(&graph, args.init);
+    let secs_init = began.elapsed().as_secs_f64();
+    let options = Options {
+        solver: match args.solver {
+            SolverName::Gn => Solver::GaussNewton,
+            SolverName::Lm => Solver::LevenbergMarquardt,
+            SolverName::Dogleg => Solver::Dogleg,
+        },
+        loss: loss(args.robust),
+        max_iterations: args.max_iterations,
+        threads: args.threads,
+        ..Options::default()
+    };
+    out.detail(&format!("starting from {init}"));
+
+    let began = Instant::now();
+    let mut recording = match &args.record {
+        Some(path) => Some(record(&graph, &poses, path.clone(), args)?),
+        None => None,
+    };
+    let solution = match &mut recording {
+        Some(recording) => optimize_with(&graph, &poses, &options, recording),
+        None => optimize_with(&graph, &poses, &options, &mut probe::Off),
+    };
+    let secs_optimize = began.elapsed().as_secs_f64();
+    for iteration in &solution.report.iterations {
+        out.detail(&format!(
+            "iteration {}: cost {:.9e}, step {:.3e}, damping {:.2e}, {}",
+            iteration.index,
+            iteration.cost,
+            iteration.step_norm,
+            iteration.damping,
+            if iteration.accepted { "taken" } else { "taken back" }
+        ));
+    }
+
+    let done = tell(&graph, &solution, init, secs_init, secs_optimize, args);
+    if let Some(recording) = recording {
+        recording.finish(&done.json).map_err(unrecorded)?;
+    }
+    let mut done = done;
+    if let Some(path) = &args.record {
+        done.json["recording"] = path.display().to_string().into();
+    }
+    graph.initial = solution.poses.into_iter().map(Some).collect();
+    Ok((P::any(graph), done))
+}
+
+fn loss(robust: Robust) -> Loss {
+    match robust {
+        Robust::None => Loss::None,
+        // 95 % efficient where the noise is Gaussian, for one degree of freedom.
+        Robust::Huber => Loss::Huber { width: 1.345 },
+        Robust::Cauchy => Loss::Cauchy { width: 2.385 },
+        Robust::GemanMcclure => Loss::GemanMcClure { width: 4.0 },
+        Robust::Tls => Loss::Tls { width: 4.0 },
+    }
+}
+
+fn record<'a, P: Dimension<D>, const D: usize>(
+    graph: &'a FactorGraph<P, D>,
+    start: &[P],
+    path: PathBuf,
+    args: &OptimizeArgs,
+) -> Result<OptimisationRecording<'a, P, D>, Failure> {
+    let name = args.file.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let about = format!(
+        "The pose graph `{}`: {} poses, {} edges. Every edge says where one pose was seen from \
+         another; the optimiser moves the poses until the edges fit as well as they can.",
+        args.file.file_name().unwrap_or_default().to_string_lossy(),
+        graph.ids.len(),
+        graph.factors.len()
+    );
+    let options = OptimisationOptions { path, name, about };
+    OptimisationRecording::create(graph, start, options).map_err(unrecorded)
+}
+
+fn unrecorded(error: InstrumentError) -> Failure {
+    Failure::work(error)
+}
+
+/// The measured value that ended the optimisation, and its threshold.
+fn measured(termination: &Termination) -> (Value, Value) {
+    match *termination {
+        Termination::CostConverged { relative_decrease, threshold } => {
+            (relative_decrease.into(), threshold.into())
+        }
+        Termination::StepConverged { step, threshold } => (step.into(), threshold.into()),
+        Termination::IterationLimit { iterations, limit } => (iterations.into(), limit.into()),
+        Termination::Stalled { damping, threshold }
+        | Termination::Singular { damping, threshold } => (damping.into(), threshold.into()),
+        Termination::NotFinite { chi2 } => (chi2.into(), Value::Null),
+        Termination::StartMissing { poses, vertices } => (poses.into(), vertices.into()),
+        _ => (Value::Null, Value::Null),
+    }
+}
+
+fn tell<P: Dimension<D>, const D: usize>(
+    graph: &FactorGraph<P, D>,
+    solution: &Solution<P>,
+    init: &'static str,
+    secs_init: f64,
+    secs_optimize: f64,
+    args: &OptimizeArgs,
+) -> Done {
+    let report = &solution.report;
+    let log_cost = chi2(graph, &solution.poses, ErrorKind::Log);
+    let sesync_cost = P::sesync_cost(graph, &solution.poses);
+    let rejected: Vec<Value> = solution
+        .weights
+        .iter()
+        .enumerate()
+        .filter(|&(_, &weight)| weight < REJECTED_BELOW && args.robust != Robust::None)
+        .map(|(index, &weight)| {
+            let factor = &graph.factors[index];
+            let (from, to) = (graph.ids[factor.from], graph.ids[factor.to]);
+            json!({ "edge": index, "from": from, "to": to, "weight": weight })
+        })
+        .collect();
+    let (value, threshold) = measured(&report.termination);
+    let converged = report.termination.is_converged();
+    let policy = &report.information;
+    let json = json!({
+        "file": args.file.display().to_string(),
+        "dimensions": if D == 3 { 2 } else { 3 },
+        "poses": graph.ids.len(),
+        "edges": graph.factors.len(),
+        "components": report.components,
+        "init": init,
+        "chi2_initial": report.chi2_initial,
+        "chi2": report.chi2,
+        "cost": report.cost,
+        "log_cost": log_cost,
+        "sesync_cost": sesync_cost,
+        "iterations": report.iterations.len(),
+        "termination": report.termination.name(),
+        "termination_value": value,
+        "termination_threshold": threshold,
+        "converged": converged,
+        "secs_init": secs_init,
+        "secs_optimize": secs_optimize,
+        "rejected_edges": rejected,
+        "certificate": Value::Null,
+        "information": {
+            "projected": policy.projected,
+            "smallest_eigenvalue": policy.smallest_eigenvalue,
+            "left_out": policy.left_out,
+        },
+        "fill": {
+            "unknowns": report.fill.unknowns,
+            "matrix": report.fill.matrix,
+            "factor": report.fill.factor,
+        },
+    });
+    let degrees = D as i64
+        * (graph.factors.len() as i64 - graph.ids.len() as i64 + report.components as i64);
+    let mut rows = vec![
+        ("graph", format!("{} poses, {} edges", graph.ids.len(), graph.factors.len())),
+        ("start", format!("{init}, chi2 {}", shown(report.chi2_initial))),
+        ("chi2", format!("{:.9} ({degrees} degrees of freedom)", report.chi2)),
+        ("log cost", format!("{log_cost:.9}")),
+        ("SE-Sync cost", format!("{sesync_cost:.9} (not minimised here)")),
+        ("iterations", report.iterations.len().to_string()),
+        ("ended", format!("{} ({value} against {threshold})", report.termination.name())),
+    ];
+    if report.components > 1 {
+        rows.push(("components", format!("{}, each optimised by itself", report.components)));
+    }
+    if policy.projected > 0 {
+        rows.push((
+            "information",
+            format!(
+                "{} matrices with negative eigenvalues (down to {}), which count as 0",
+                policy.projected,
+                shown(policy.smallest_eigenvalue)
+            ),
+        ));
+    }
+    if !policy.left_out.is_empty() {
+        rows.push(("left out", format!("{} edges", policy.left_out.len())));
+    }
+    if args.robust != Robust::None {
+        rows.push(("rejected", format!("{} edges", rejected.len())));
+    }
+    let failure = match report.termination {
+        Termination::NotFinite { .. } | Termination::Singular { .. } => {
+            let name = report.termination.name();
+            Some(Failure::Work(anyhow!("{}: ended with {name}", args.file.display())))
+        }
+        _ => None,
+    };
+    Done { json, text: listed(&rows), secs_init, secs_optimize, failure }
+}
