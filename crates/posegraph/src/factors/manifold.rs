@@ -4,7 +4,7 @@ use std::fmt::Debug;
 
 use pose::nalgebra::{SMatrix, SVector};
 
-use super::{ErrorKind, NormalBlocks};
+use super::{Curvature, ErrorKind, NormalBlocks};
 
 /// Poses as a Lie group with `D` degrees of freedom, tangent vectors translation first.
 ///
@@ -48,6 +48,14 @@ pub trait Manifold<const D: usize>: Copy + PartialEq + Debug + Send + Sync + 'st
     ) -> NormalBlocks<D> {
         NormalBlocks::new(linearized, information)
     }
+
+    /// What Gauss-Newton leaves out of the second derivatives of this factor; `None` for errors
+    /// for which it is not worked out.
+    fn curvature(
+        kind: ErrorKind,
+        linearized: &Linearized<D>,
+        information: &SMatrix<f64, D, D>,
+    ) -> Option<Curvature<D>>;
 }
 
 /// The error of a factor and its derivatives.

@@ -3,7 +3,7 @@
 use pose::Se2;
 use pose::nalgebra::{Matrix3, Vector3};
 
-use super::{ErrorKind, Linearized, Manifold};
+use super::{Curvature, ErrorKind, Linearized, Manifold};
 
 impl Manifold<3> for Se2 {
     fn identity() -> Self {
@@ -92,5 +92,23 @@ impl Manifold<3> for Se2 {
                 }
             }
         }
+    }
+
+    fn curvature(
+        kind: ErrorKind,
+        linearized: &Linearized<3>,
+        information: &Matrix3<f64>,
+    ) -> Option<Curvature<3>> {
+        if kind == ErrorKind::Log {
+            return None;
+        }
+        // A step (ρ, φ) moves the translation by R (ρ + ½ φ Jρ) to second order, J a quarter turn;
+        // the commutator of two steps is (φ₁ Jρ₂ - φ₂ Jρ₁, 0). Both meet the gradient in R.
+        let gradient = linearized.by_to.tr_mul(&(information * linearized.error));
+        let (x, y) = (0.5 * gradient.y, -0.5 * gradient.x);
+        Some(Curvature {
+            along: Matrix3::new(0.0, 0.0, x, 0.0, 0.0, y, x, y, 0.0),
+            commutator: Matrix3::new(0.0, 0.0, -x, 0.0, 0.0, -y, x, y, 0.0),
+        })
     }
 }

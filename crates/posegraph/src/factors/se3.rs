@@ -3,7 +3,7 @@
 use pose::nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
 use pose::{Se3, So3};
 
-use super::{ErrorKind, Linearized, Manifold};
+use super::{Curvature, ErrorKind, Linearized, Manifold};
 
 impl Manifold<6> for Se3 {
     fn identity() -> Self {
@@ -88,6 +88,33 @@ impl Manifold<6> for Se3 {
         by_to.fixed_view_mut::<3, 3>(0, 0).copy_from(&gap.rotation_matrix());
         by_to.fixed_view_mut::<3, 3>(3, 3).copy_from(&by_right);
         Linearized { error: stacked(&gap.translation, &rotation), by_from, by_to }
+    }
+
+    fn curvature(
+        kind: ErrorKind,
+        linearized: &Linearized<6>,
+        information: &Matrix6<f64>,
+    ) -> Option<Curvature<6>> {
+        if kind != ErrorKind::G2o {
+            return None;
+        }
+        // A step (ρ, φ) moves the translation by R (ρ + ½ φ × ρ) to second order, and the vector
+        // part v of the quaternion by its linear part less ⅛ |φ|² v.
+        let weighted = information * linearized.error;
+        let gradient = linearized.by_to.tr_mul(&weighted);
+        let by_translation = So3::hat(&gradient.fixed_rows::<3>(0).into_owned()) * 0.5;
+        let by_rotation = So3::hat(&gradient.fixed_rows::<3>(3).into_owned()) * 0.5;
+        let bent = linearized.error.fixed_rows::<3>(3).dot(&weighted.fixed_rows::<3>(3));
+        let mut along = Matrix6::zeros();
+        along.fixed_view_mut::<3, 3>(0, 3).copy_from(&by_translation);
+        along.fixed_view_mut::<3, 3>(3, 0).copy_from(&-by_translation);
+        along.fixed_view_mut::<3, 3>(3, 3).fill_diagonal(-0.25 * bent);
+        // The commutator of two steps is (φ₁ × ρ₂ + ρ₁ × φ₂, φ₁ × φ₂).
+        let mut commutator = Matrix6::zeros();
+        commutator.fixed_view_mut::<3, 3>(0, 3).copy_from(&-by_translation);
+        commutator.fixed_view_mut::<3, 3>(3, 0).copy_from(&-by_translation);
+        commutator.fixed_view_mut::<3, 3>(3, 3).copy_from(&-by_rotation);
+        Some(Curvature { along, commutator })
     }
 }
 

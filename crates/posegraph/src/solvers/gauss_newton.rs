@@ -6,8 +6,12 @@
 //! 2. Where the cost falls by clearly more than the linear model promised, the model is too stiff
 //!    along the step. A parabola through both tells how much longer the step should be; the longer
 //!    one is taken where its cost is lower.
-//! 3. Converged where what is left to gain is next to nothing, by the rate of the last iterations.
-//! 4. Where the cost has not been below its best for [`PATIENCE`] iterations, or is not a number,
+//! 3. Where the gain ratio is far from 1 near a minimum, residuals are large and full steps converge
+//!    slowly. The next matrix holds the second derivatives that Gauss-Newton leaves out
+//!    ([`Curvature`](crate::factors::Curvature)): steps are Newton's as long as the matrix is positive
+//!    definite and the cost falls.
+//! 4. Converged where what is left to gain is next to nothing, by the rate of the last iterations.
+//! 5. Where the cost has not been below its best for [`PATIENCE`] iterations, or is not a number,
 //!    damped steps go on from the best poses ([`levenberg_marquardt`]).
 
 use probe::Probe;
@@ -22,6 +26,15 @@ const PATIENCE: usize = 15;
 
 /// A gain ratio above this asks for longer steps.
 const STIFF: f64 = 1.3;
+
+/// Where a step promises less than this share of the cost, the poses are near a minimum.
+const CALM: f64 = 0.1;
+
+/// A gain ratio this far from 1 near a minimum asks for second derivatives.
+const UNLIKE: f64 = 0.2;
+
+/// Iterations without second derivatives after they have failed.
+const PLAIN_AFTER_NEWTON: usize = 3;
 
 /// A step is made at most this many times as long.
 const LONGEST: f64 = 4.0;
@@ -42,28 +55,51 @@ pub(super) fn run<P: Manifold<D>, const D: usize>(
     let mut since_best = 0;
     let mut last_gain = 1.0;
     let mut last_decrease = f64::INFINITY;
+    // Whether the matrix holds second derivatives, and the iterations in which it must not.
+    let mut newton = false;
+    let mut plain = 0;
     while state.iterations.len() < limit {
-        let Some(mut promise) = state.promise(problem, 0.0) else {
+        let mut promise = if newton { state.undamped(problem) } else { None };
+        if newton && promise.is_none() {
+            (newton, plain) = (false, PLAIN_AFTER_NEWTON);
+            problem.linearize(&state.poses);
+        }
+        promise = promise.or_else(|| state.promise(problem, 0.0));
+        let Some(mut promise) = promise else {
             return Termination::Singular { damping: LARGEST_DAMPING, threshold: LARGEST_DAMPING };
         };
-        let ending = ending(&promise, last_decrease, state.cost, options);
-        last_decrease = promise.decrease;
+        // A rate says something only where the model holds.
+        let before_that = if like(last_gain) { last_decrease } else { promise.decrease };
+        let ending = ending(&promise, before_that, state.cost, options);
         problem.moved(&state.poses, &state.step, &mut state.trial);
-        if ending.is_none() && last_gain > STIFF {
+        if ending.is_none() && last_gain > STIFF && !newton {
             lengthen(problem, state, &mut promise);
         }
+        let calm = promise.decrease < CALM * state.cost;
+        let next_newton = calm && plain == 0 && (newton || !like(last_gain));
         let cost = if ending.is_some() {
             problem.evaluate(&state.trial)
         } else {
-            problem.linearize(&state.trial)
+            problem.expand(&state.trial, next_newton)
         };
+        let before = state.cost;
+        if newton && cost > before && ending.is_none() {
+            // Newton's step led uphill: the next one is from the same poses without him.
+            state.record(problem, promise, cost, false, before, probe);
+            (newton, plain) = (false, PLAIN_AFTER_NEWTON);
+            problem.linearize(&state.poses);
+            continue;
+        }
         std::mem::swap(&mut state.poses, &mut state.trial);
-        let before = std::mem::replace(&mut state.cost, cost);
+        state.cost = cost;
         state.record(problem, promise, cost, true, before, probe);
         if let Some(ending) = ending {
             return ending;
         }
         last_gain = (before - cost) / promise.decrease;
+        last_decrease = promise.decrease;
+        plain = plain.saturating_sub(1);
+        newton = next_newton;
         if cost < best {
             best = cost;
             best_poses.clone_from(&state.poses);
@@ -82,6 +118,11 @@ pub(super) fn run<P: Manifold<D>, const D: usize>(
         state.cost = problem.evaluate(&state.poses);
     }
     Termination::IterationLimit { iterations: limit, limit }
+}
+
+/// Whether a gain ratio is near enough to 1 for the model to hold.
+fn like(gain: f64) -> bool {
+    (gain - 1.0).abs() <= UNLIKE
 }
 
 /// Whether the step that was just found is the last one.

@@ -150,6 +150,12 @@ impl<'a, P: Manifold<D>, const D: usize> Problem<'a, P, D> {
 
     /// Linearises at these poses; returns the cost there, with losses and weights.
     pub(crate) fn linearize(&mut self, poses: &[P]) -> f64 {
+        self.expand(poses, false)
+    }
+
+    /// Linearises, and adds the second derivatives that this leaves out where they are known and
+    /// factors have no loss: the matrix is then that of Newton's method, and may be indefinite.
+    pub(crate) fn expand(&mut self, poses: &[P], second_order: bool) -> f64 {
         self.matrix.fill(0.0);
         self.gradient.fill(0.0);
         let mut cost = 0.0;
@@ -169,7 +175,13 @@ impl<'a, P: Manifold<D>, const D: usize> Problem<'a, P, D> {
             if weight == 0.0 {
                 continue;
             }
-            let blocks = P::normal_blocks(&linear, &factor.information);
+            let mut blocks = P::normal_blocks(&linear, &factor.information);
+            if second_order
+                && loss == Loss::None
+                && let Some(curvature) = P::curvature(self.kind, &linear, &factor.information)
+            {
+                curvature.add_to(&mut blocks, &to.between(from).adjoint());
+            }
             let Target { from, to, between } = *target;
             if from != HELD {
                 add(&mut self.matrix, self.diagonals[from], weight, &blocks.from_from);

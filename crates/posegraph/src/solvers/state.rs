@@ -64,6 +64,19 @@ impl<P> State<P> {
         Some(self.promise_of_step(problem, damping))
     }
 
+    /// Solves for the step without damping; `None` where the matrix is not positive definite.
+    pub(super) fn undamped<const D: usize>(
+        &mut self,
+        problem: &mut Problem<'_, P, D>,
+    ) -> Option<Promise>
+    where
+        P: Manifold<D>,
+    {
+        problem.factorize(0.0).ok()?;
+        problem.solve(&mut self.step);
+        Some(self.promise_of_step(problem, 0.0))
+    }
+
     /// What the linear model promises for the current step, which solved the system with this
     /// damping.
     pub(super) fn promise_of_step<const D: usize>(

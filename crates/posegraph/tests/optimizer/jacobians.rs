@@ -1,6 +1,6 @@
 //! Every error of every convention: its value against matrices, its Jacobians against differences.
 
-use pose::nalgebra::{Matrix3, Matrix4, Rotation3, UnitQuaternion};
+use pose::nalgebra::{Matrix3, Matrix4, Rotation3, SMatrix, UnitQuaternion};
 use pose::{Se2, Se3};
 use posegraph::{ErrorKind, Manifold};
 use proptest::prelude::*;
@@ -98,5 +98,47 @@ proptest! {
         prop_assert!(turned.angle_to(&quaternion) < 1e-7);
         let log = Se3::error(ErrorKind::Log, &measured, &from, &to);
         prop_assert!((matrix(Se3::exp(&log)) - gap).amax() < 1e-10);
+    }
+}
+
+/// Half the cost of one factor.
+fn half_cost<P: Drawn<D>, const D: usize>(
+    measured: &P,
+    poses: (&P, &P),
+    information: &SMatrix<f64, D, D>,
+) -> f64 {
+    let error = P::error(ErrorKind::G2o, measured, poses.0, poses.1);
+    0.5 * error.dot(&(information * error))
+}
+
+/// The second derivative of half the cost by steps `a` of `from` and `b` of `to`, by differences.
+fn hold_curvature<P: Drawn<D>, const D: usize>(seed: u64, size: f64) {
+    let (measured, from, to) = drawn::<P, D>(seed, size);
+    let draw = &mut Draw(!seed);
+    let information = draw.information::<D>();
+    let (a, b) = (draw.vector::<D>(1.0), draw.vector::<D>(1.0));
+    let linear = P::linearize(ErrorKind::G2o, &measured, &from, &to);
+    let mut blocks = P::normal_blocks(&linear, &information);
+    let curvature = P::curvature(ErrorKind::G2o, &linear, &information).unwrap();
+    curvature.add_to(&mut blocks, &to.between(&from).adjoint());
+    let second = a.dot(&(blocks.from_from * a))
+        + 2.0 * b.dot(&(blocks.to_from * a))
+        + b.dot(&(blocks.to_to * b));
+    let at = |s: f64| {
+        half_cost(&measured, (&from.retract(&(a * s)), &to.retract(&(b * s))), &information)
+    };
+    let h = 1e-3;
+    // Central differences of fourth order.
+    let expected =
+        (16.0 * (at(h) + at(-h)) - at(2.0 * h) - at(-2.0 * h) - 30.0 * at(0.0)) / (12.0 * h * h);
+    let scale = 1.0 + information.amax() * (1.0 + linear.by_from.amax()).powi(2);
+    assert!((second - expected).abs() < 1e-6 * scale, "{second} {expected} {scale}");
+}
+
+proptest! {
+    #[test]
+    fn curvature_completes_the_second_derivatives(seed: u64, size in 0.0..2.0) {
+        hold_curvature::<Se2, 3>(seed, size);
+        hold_curvature::<Se3, 6>(seed, size);
     }
 }
