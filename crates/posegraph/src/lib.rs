@@ -1,18 +1,22 @@
 #![doc = include_str!("../README.md")]
 
+pub mod certificate;
 mod error;
 pub mod factors;
 pub mod initial;
 mod linear;
 mod placement;
 pub mod solvers;
+pub mod synchronize;
 pub mod synthetic;
 
+pub use certificate::{Certificate, Verdict, certify, certify_with};
 pub use error::PoseGraphError;
 pub use factors::{
     ErrorKind, Factor, FactorGraph, FactorGraph2, FactorGraph3, InformationPolicy, Linearized,
     Manifold,
 };
+pub use initial::{Start, default_start, default_start_with};
 pub use placement::{
     Edge, EdgeKind, Link, Placed, Placement, PoseGraph, Scope, ScopeScratch, Skeleton, Via,
 };
@@ -20,3 +24,4 @@ pub use solvers::{
     Fill, Iteration, Loss, LossOn, OptimizerEvent, Options, Report, Solution, Solver, Termination,
     optimize, optimize_weighted, optimize_with,
 };
+pub use synchronize::{Rigid, SynchronizeEvent, SynchronizeOptions, sesync_cost};

@@ -4,11 +4,17 @@
 //!    optimisers are measured from.
 //! 2. [`spanning_tree`]: the fewest factors between each vertex and the first of its component.
 //! 3. [`given`](given()): what the file says, completed along factors.
+//! 4. [`chordal`](chordal()): linear least squares over all factors, rotations first.
+//! 5. [`default_start`]: chordal, judged by what the optimiser makes of it, and better ones on doubt.
 
+pub mod chordal;
 mod components;
+pub mod default;
 mod odometry;
 mod spanning_tree;
 
+pub use chordal::chordal;
 pub use components::Components;
+pub use default::{Start, default_start, default_start_with};
 pub use odometry::odometry;
 pub use spanning_tree::{given, spanning_tree};

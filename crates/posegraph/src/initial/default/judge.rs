@@ -1,0 +1,164 @@
+//! Whether a solution can be believed.
+
+use pose::nalgebra::Vector3;
+
+use crate::factors::{FactorGraph, InformationPolicy};
+use crate::solvers::Solution;
+use crate::synchronize::Rigid;
+
+/// A loop whose rotation errors add up to more than this may be wound once too often: with the same
+/// measurements the sum could as well be a full turn less, and a quarter of a turn leaves a margin
+/// of two to either side of what is certain.
+const LOOP_RAD: f64 = std::f64::consts::FRAC_PI_2;
+
+/// `χ²` may exceed its expectation by so many standard deviations.
+const DEVIATIONS: f64 = 5.0;
+
+/// Why a solution is not believed at once.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Doubt {
+    /// The optimiser did not converge.
+    NotConverged,
+    /// `χ²` is larger than the information matrices can explain.
+    Cost {
+        /// `χ²` of the solution.
+        chi2: f64,
+        /// At most this is plausible: the degrees of freedom and five standard deviations.
+        limit: f64,
+    },
+    /// The rotation errors around a loop add up to more than noise should.
+    Loop {
+        /// Index of the factor that closes the loop.
+        factor: usize,
+        /// Length of the sum, radians.
+        sum_rad: f64,
+        /// At most this is plausible.
+        limit_rad: f64,
+    },
+}
+
+/// What speaks for and against a solution.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Judgement {
+    /// Measured numbers minus unknowns.
+    pub degrees_of_freedom: usize,
+    /// `χ²` for each degree of freedom; 1 where the information matrices are right.
+    pub chi2_per_degree: f64,
+    /// The largest sum of rotation errors around a loop, radians.
+    pub loop_rad: f64,
+    /// The first doubt, if any.
+    pub doubt: Option<Doubt>,
+}
+
+/// Judges a solution by what needs no factorisation.
+pub(super) fn judge<P: Rigid<D>, const D: usize>(
+    graph: &FactorGraph<P, D>,
+    solution: &Solution<P>,
+) -> Judgement {
+    let report = &solution.report;
+    let used = graph.factors.len() - report.information.left_out.len();
+    let free = graph.ids.len().saturating_sub(report.held.len());
+    let degrees = (D * used).saturating_sub(D * free);
+    let limit = degrees as f64 + DEVIATIONS * (2.0 * degrees as f64).sqrt();
+    let (factor, sum_rad) = worst_loop(graph, &report.information, &solution.poses);
+    let doubt = if !report.termination.is_converged() {
+        Some(Doubt::NotConverged)
+    } else if report.chi2 > limit {
+        Some(Doubt::Cost { chi2: report.chi2, limit })
+    } else if sum_rad > LOOP_RAD {
+        Some(Doubt::Loop { factor, sum_rad, limit_rad: LOOP_RAD })
+    } else {
+        None
+    };
+    let chi2_per_degree = report.chi2 / degrees.max(1) as f64;
+    Judgement { degrees_of_freedom: degrees, chi2_per_degree, loop_rad: sum_rad, doubt }
+}
+
+/// The factor whose loop through a breadth-first tree has the largest sum of rotation errors, in the
+/// frame of the map, and the length of that sum.
+///
+/// What two branches of the tree share cancels, so each loop is summed by its own edges. Cost: linear.
+fn worst_loop<P: Rigid<D>, const D: usize>(
+    graph: &FactorGraph<P, D>,
+    policy: &InformationPolicy,
+    poses: &[P],
+) -> (usize, f64) {
+    let count = graph.ids.len();
+    let errors: Vec<Vector3<f64>> = (graph.factors.iter())
+        .enumerate()
+        .map(|(index, factor)| {
+            if policy.left_out.binary_search(&index).is_ok() {
+                return Vector3::zeros();
+            }
+            let expected = poses[factor.from].compose(&factor.from_from_to);
+            P::turn_between(&expected, &poses[factor.to])
+        })
+        .collect();
+    let tree = Tree::new(graph, policy);
+    let mut along = vec![Vector3::zeros(); count];
+    for &(vertex, parent, factor) in &tree.steps {
+        let forward = graph.factors[factor].from == parent;
+        along[vertex] = along[parent] + if forward { errors[factor] } else { -errors[factor] };
+    }
+    let mut worst = (0, 0.0);
+    for (index, factor) in graph.factors.iter().enumerate() {
+        if policy.left_out.binary_search(&index).is_err() {
+            let sum = (along[factor.from] + errors[index] - along[factor.to]).norm();
+            if sum > worst.1 {
+                worst = (index, sum);
+            }
+        }
+    }
+    worst
+}
+
+/// A breadth-first forest: each vertex but the roots with its parent and the factor between, parents
+/// first.
+struct Tree {
+    steps: Vec<(usize, usize, usize)>,
+}
+
+impl Tree {
+    fn new<P: Rigid<D>, const D: usize>(
+        graph: &FactorGraph<P, D>,
+        policy: &InformationPolicy,
+    ) -> Self {
+        let count = graph.ids.len();
+        let used = |index: &usize| policy.left_out.binary_search(index).is_err();
+        let mut starts = vec![0usize; count + 1];
+        for index in (0..graph.factors.len()).filter(used) {
+            starts[graph.factors[index].from + 1] += 1;
+            starts[graph.factors[index].to + 1] += 1;
+        }
+        for v in 0..count {
+            starts[v + 1] += starts[v];
+        }
+        let mut next = starts.clone();
+        let mut beside = vec![(0usize, 0usize); starts[count]];
+        for index in (0..graph.factors.len()).filter(used) {
+            let factor = &graph.factors[index];
+            for (a, b) in [(factor.from, factor.to), (factor.to, factor.from)] {
+                beside[next[a]] = (b, index);
+                next[a] += 1;
+            }
+        }
+        let mut steps = Vec::with_capacity(count);
+        let mut seen = vec![false; count];
+        let mut queue = std::collections::VecDeque::new();
+        for root in 0..count {
+            if std::mem::replace(&mut seen[root], true) {
+                continue;
+            }
+            queue.push_back(root);
+            while let Some(vertex) = queue.pop_front() {
+                for &(other, factor) in &beside[starts[vertex]..starts[vertex + 1]] {
+                    if !std::mem::replace(&mut seen[other], true) {
+                        steps.push((other, vertex, factor));
+                        queue.push_back(other);
+                    }
+                }
+            }
+        }
+        Self { steps }
+    }
+}

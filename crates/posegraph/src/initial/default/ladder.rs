@@ -1,0 +1,172 @@
+//! From the cheapest start to the surest.
+
+use probe::{Off, Probe};
+
+use super::judge::{Judgement, judge};
+use crate::certificate::{Verdict, certify};
+use crate::factors::FactorGraph;
+use crate::initial::{chordal, odometry, spanning_tree};
+use crate::solvers::{Loss, OptimizerEvent, Options, Solution, Solver, optimize, optimize_with};
+use crate::synchronize::{Rigid, SynchronizeOptions};
+
+/// Where start values came from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// Chordal initialisation.
+    Chordal,
+    /// The solution of SE-Sync's problem.
+    Synchronized,
+    /// The chain of odometry.
+    Odometry,
+    /// The shortest paths from the first vertex.
+    SpanningTree,
+    /// The lowest of the others, after damped steps.
+    Damped,
+}
+
+impl Origin {
+    /// A name for reports: `chordal`, `synchronized`, `odometry`, `spanning_tree`, `damped`.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Chordal => "chordal",
+            Self::Synchronized => "synchronized",
+            Self::Odometry => "odometry",
+            Self::SpanningTree => "spanning_tree",
+            Self::Damped => "damped",
+        }
+    }
+}
+
+/// A start that was tried.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Trial {
+    /// Where it came from.
+    pub origin: Origin,
+    /// `χ²` that Gauss-Newton reached from it.
+    pub chi2: f64,
+    /// Whether it converged.
+    pub converged: bool,
+}
+
+/// Start values, and the solution that was found from them on the way.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Start<P> {
+    /// `map_from_body` of every vertex: the start.
+    pub poses: Vec<P>,
+    /// Where it came from.
+    pub origin: Origin,
+    /// What the optimiser made of it, with the options that were given.
+    pub solution: Solution<P>,
+    /// What speaks for and against the first solution.
+    pub judgement: Judgement,
+    /// The verdict on SE-Sync's problem, where it came to that.
+    pub verdict: Option<Verdict>,
+    /// Every start that was tried, in order.
+    pub trials: Vec<Trial>,
+}
+
+/// Start values from which the optimiser reaches the lowest cost that is known how to reach: see the
+/// [module](crate::initial::default).
+///
+/// Gauss-Newton is what starts are tried with, whatever solver the options name, and its solution is
+/// returned too. With a loss that lets factors disagree the start is the chain of odometry: every
+/// other start trusts all factors alike.
+pub fn default_start<P: Rigid<D>, const D: usize>(
+    graph: &FactorGraph<P, D>,
+    options: &Options,
+) -> Start<P> {
+    default_start_with(graph, options, &mut Off)
+}
+
+/// [`default_start`], the optimisation from the start that is returned watched by a probe.
+pub fn default_start_with<P: Rigid<D>, const D: usize>(
+    graph: &FactorGraph<P, D>,
+    options: &Options,
+    probe: &mut impl for<'a> Probe<OptimizerEvent<'a, P>>,
+) -> Start<P> {
+    let trusting = options.loss == Loss::None;
+    let options = &Options { solver: Solver::GaussNewton, ..*options };
+    let (origin, first) = if trusting {
+        (Origin::Chordal, chordal(graph))
+    } else {
+        (Origin::Odometry, odometry(graph))
+    };
+    let solution = optimize_with(graph, &first, options, probe);
+    let judgement = judge(graph, &solution);
+    let mut start = Start {
+        poses: first,
+        origin,
+        judgement,
+        verdict: None,
+        trials: vec![trial(origin, &solution)],
+        solution,
+    };
+    if judgement.doubt.is_none() || !trusting {
+        return start;
+    }
+    let mut better: Option<Better<P>> = None;
+    let effort = SynchronizeOptions { max_rank: P::DIM + 2, iterations: 50, ..Default::default() };
+    let certificate = certify(graph, &start.solution.poses, &effort);
+    start.verdict = Some(certificate.verdict);
+    let same_valley = certificate.verdict == Verdict::GloballyOptimal && certificate.rank == P::DIM;
+    if same_valley && start.solution.report.termination.is_converged() {
+        return start;
+    }
+    if certificate.verdict != Verdict::NotApplicable {
+        try_from(graph, Origin::Synchronized, certificate.poses, options, &mut start, &mut better);
+    }
+    if certificate.verdict != Verdict::GloballyOptimal {
+        try_from(graph, Origin::Odometry, odometry(graph), options, &mut start, &mut better);
+        let tree = spanning_tree(graph);
+        try_from(graph, Origin::SpanningTree, tree, options, &mut start, &mut better);
+    }
+    let lowest = better.as_ref().map_or(&start.solution, |better| &better.solution);
+    if !lowest.report.termination.is_converged() {
+        // Full steps circle round it; damped ones go down.
+        let damped = Options { solver: Solver::LevenbergMarquardt, ..*options };
+        let poses = optimize(graph, &lowest.poses, &damped).poses;
+        try_from(graph, Origin::Damped, poses, options, &mut start, &mut better);
+    }
+    if let Some(Better { origin, poses, .. }) = better {
+        // Once more, so that the probe sees the way to what is returned, and that last.
+        start.solution = optimize_with(graph, &poses, options, probe);
+        start.poses = poses;
+        start.origin = origin;
+    }
+    start
+}
+
+/// A start that led lower than the first, and where it led.
+struct Better<P> {
+    origin: Origin,
+    poses: Vec<P>,
+    solution: Solution<P>,
+}
+
+/// Optimises from `poses`, and keeps the solution where it is the lowest so far.
+fn try_from<P: Rigid<D>, const D: usize>(
+    graph: &FactorGraph<P, D>,
+    origin: Origin,
+    poses: Vec<P>,
+    options: &Options,
+    start: &mut Start<P>,
+    better: &mut Option<Better<P>>,
+) {
+    let solution = optimize(graph, &poses, options);
+    start.trials.push(trial(origin, &solution));
+    let lowest = better.as_ref().map_or(&start.solution, |better| &better.solution);
+    if improves(&solution, lowest) {
+        *better = Some(Better { origin, poses, solution });
+    }
+}
+
+fn trial<P>(origin: Origin, solution: &Solution<P>) -> Trial {
+    let report = &solution.report;
+    Trial { origin, chi2: report.chi2, converged: report.termination.is_converged() }
+}
+
+/// Whether a solution is lower than another by more than convergence leaves open.
+fn improves<P>(solution: &Solution<P>, than: &Solution<P>) -> bool {
+    let (new, old) = (solution.report.cost, than.report.cost);
+    new.is_finite() && (!old.is_finite() || new < old * (1.0 - 1e-9))
+}

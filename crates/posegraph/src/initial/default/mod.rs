@@ -1,0 +1,30 @@
+//! The start that is used where none is asked for: the cheapest that can be believed.
+//!
+//! No single start leads to the lowest `χ²` on every graph. The cheap one usually does, and whether it
+//! did can be judged; more is spent only on doubt.
+//!
+//! 1. [`chordal`](crate::initial::chordal()) start, then Gauss-Newton on `χ²`.
+//! 2. The solution is **judged** ([`Judgement`]) by what costs next to nothing:
+//!    - it converged;
+//!    - `χ²` is at most its expectation, the degrees of freedom `ν`, and five standard deviations
+//!      `√(2 ν)` more, which catches wrong minima where the information matrices are right;
+//!    - rotation errors, added up around each loop of a breadth-first tree, stay below a quarter of a
+//!      turn. This has no unit, so it holds where the information matrices are far too small and any
+//!      `χ²` would look good: a solution that winds around a loop once too often has errors there that
+//!      add up to a full turn, minus what noise leaves.
+//!
+//!    No doubt: done.
+//! 3. On doubt, [`certify`](crate::certificate::certify) solves SE-Sync's problem from this solution. If
+//!    it descends to a **certified global optimum** without leaving rank `d`, the solution lies in the
+//!    valley of that optimum: done.
+//! 4. Else Gauss-Newton starts again from the poses that the staircase led to, and, unless those were
+//!    certified, from odometry and the spanning tree too. The lowest `χ²` wins.
+//! 5. Where even the lowest did not converge, damped steps go on from it.
+//!
+//! `χ²` has no certificate: a start that passes is plausible, not proven. Nothing is looked up.
+
+mod judge;
+mod ladder;
+
+pub use judge::{Doubt, Judgement};
+pub use ladder::{Origin, Start, Trial, default_start, default_start_with};
