@@ -3,7 +3,7 @@
 use pose::nalgebra::{Matrix3, Matrix6, UnitQuaternion, Vector3, Vector6};
 use pose::{Se3, So3};
 
-use super::{Curvature, ErrorKind, Linearized, Manifold};
+use super::{Curvature, ErrorKind, Linearized, Manifold, NormalBlocks};
 
 impl Manifold<6> for Se3 {
     fn identity() -> Self {
@@ -90,6 +90,24 @@ impl Manifold<6> for Se3 {
         Linearized { error: stacked(&gap.translation, &rotation), by_from, by_to }
     }
 
+    /// By blocks of 3 × 3: `by_to` and `by_from` have no lower left one.
+    #[inline]
+    fn normal_blocks(linearized: &Linearized<6>, information: &Matrix6<f64>) -> NormalBlocks<6> {
+        let Linearized { error, by_from, by_to } = linearized;
+        let information = Blocks::of(information);
+        let (from, to) = (Blocks::of(by_from), Blocks::of(by_to));
+        let (weighted_from, weighted_to) =
+            (information.times_upper(&from), information.times_upper(&to));
+        let weighted_error = information.times(error);
+        NormalBlocks {
+            from_from: from.upper_transposed_times(&weighted_from),
+            to_from: to.upper_transposed_times(&weighted_from),
+            to_to: to.upper_transposed_times(&weighted_to),
+            gradient_from: by_from.tr_mul(&weighted_error),
+            gradient_to: by_to.tr_mul(&weighted_error),
+        }
+    }
+
     fn curvature(
         kind: ErrorKind,
         linearized: &Linearized<6>,
@@ -115,6 +133,58 @@ impl Manifold<6> for Se3 {
         commutator.fixed_view_mut::<3, 3>(3, 0).copy_from(&-by_translation);
         commutator.fixed_view_mut::<3, 3>(3, 3).copy_from(&-by_rotation);
         Some(Curvature { along, commutator })
+    }
+}
+
+/// A 6 × 6 matrix as `[a b; c d]`.
+#[derive(Clone, Copy)]
+struct Blocks {
+    a: Matrix3<f64>,
+    b: Matrix3<f64>,
+    c: Matrix3<f64>,
+    d: Matrix3<f64>,
+}
+
+impl Blocks {
+    #[inline]
+    fn of(matrix: &Matrix6<f64>) -> Self {
+        Self {
+            a: matrix.fixed_view::<3, 3>(0, 0).into_owned(),
+            b: matrix.fixed_view::<3, 3>(0, 3).into_owned(),
+            c: matrix.fixed_view::<3, 3>(3, 0).into_owned(),
+            d: matrix.fixed_view::<3, 3>(3, 3).into_owned(),
+        }
+    }
+
+    /// The product with a matrix whose block `c` is 0.
+    #[inline]
+    fn times_upper(&self, upper: &Self) -> Self {
+        Self {
+            a: self.a * upper.a,
+            b: self.a * upper.b + self.b * upper.d,
+            c: self.c * upper.a,
+            d: self.c * upper.b + self.d * upper.d,
+        }
+    }
+
+    /// The product of the transpose of this matrix, whose block `c` is 0, with another.
+    #[inline]
+    fn upper_transposed_times(&self, other: &Self) -> Matrix6<f64> {
+        let mut product = Matrix6::zeros();
+        let (b, d) = (self.b.transpose(), self.d.transpose());
+        let a = self.a.transpose();
+        product.fixed_view_mut::<3, 3>(0, 0).copy_from(&(a * other.a));
+        product.fixed_view_mut::<3, 3>(0, 3).copy_from(&(a * other.b));
+        product.fixed_view_mut::<3, 3>(3, 0).copy_from(&(b * other.a + d * other.c));
+        product.fixed_view_mut::<3, 3>(3, 3).copy_from(&(b * other.b + d * other.d));
+        product
+    }
+
+    #[inline]
+    fn times(&self, vector: &Vector6<f64>) -> Vector6<f64> {
+        let top = vector.fixed_rows::<3>(0).into_owned();
+        let bottom = vector.fixed_rows::<3>(3).into_owned();
+        stacked(&(self.a * top + self.b * bottom), &(self.c * top + self.d * bottom))
     }
 }
 

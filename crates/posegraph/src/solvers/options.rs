@@ -45,7 +45,7 @@ impl Default for Options {
             loss: Loss::None,
             loss_on: LossOn::Closures,
             max_iterations: 100,
-            relative_decrease: 1e-8,
+            relative_decrease: 5e-8,
             step: 1e-9,
             threads: 1,
         }
