@@ -100,8 +100,7 @@ fn side(layout: &mut Layout<'_>) -> RecordingStreamResult<Written> {
     ];
     let more = layout.container(ContainerKind::Tabs, &more, &[])?;
     let columns = TextLogColumns::update_fields().with_text_log_columns(
-        [TextLogColumnKind::Body]
-            .map(|kind| TextLogColumn { visible: true.into(), kind }),
+        [TextLogColumnKind::Body].map(|kind| TextLogColumn { visible: true.into(), kind }),
     );
     let events = layout.view(&View {
         class: "TextLog",

@@ -55,13 +55,12 @@ pub struct OptimisationRecording<'a, P, const D: usize> {
 }
 
 impl<'a, P: Manifold<D> + DrawnPose, const D: usize> OptimisationRecording<'a, P, D> {
-    /// Creates the file with its layout and text page; `start` is used to choose what is in view.
+    /// Creates the file with its layout and text page.
     ///
     /// # Errors
     /// [`InstrumentError::Write`] where the file cannot be created.
     pub fn create(
         graph: &'a FactorGraph<P, D>,
-        start: &[P],
         options: OptimisationOptions,
     ) -> Result<Self, InstrumentError> {
         let refuse = |reason: String| InstrumentError::Write { path: options.path.clone(), reason };
@@ -71,8 +70,6 @@ impl<'a, P: Manifold<D> + DrawnPose, const D: usize> OptimisationRecording<'a, P
             .map_err(|e| refuse(e.to_string()))?;
         stream.set_log_time_enabled(false);
         stream.set_log_tick_enabled(false);
-        let look = layout::GraphLook { in_space: P::IN_SPACE, bounds_m: bounds(start) };
-        layout::send_graph(&stream, &look).map_err(refuse)?;
         let about = page::about(&options.name, &options.about, None);
         fixed(&stream, &ABOUT.into(), &TextDocument::from_markdown(about))?;
         if P::IN_SPACE {
@@ -118,6 +115,13 @@ impl<'a, P: Manifold<D> + DrawnPose, const D: usize> OptimisationRecording<'a, P
         })?;
         self.stream.disconnect();
         Ok(())
+    }
+
+    /// Sends the layout, which shows where the poses start.
+    fn lay_out(&self, start: &[P]) -> Result<(), InstrumentError> {
+        let look = layout::GraphLook { in_space: P::IN_SPACE, bounds_m: bounds(start) };
+        layout::send_graph(&self.stream, &look)
+            .map_err(|reason| InstrumentError::Write { path: self.options.path.clone(), reason })
     }
 
     fn attempt(&mut self, what: impl FnOnce(&mut Self) -> Result<(), InstrumentError>) {
@@ -207,9 +211,7 @@ impl<'a, P: Manifold<D> + DrawnPose, const D: usize> OptimisationRecording<'a, P
             let ends = [from.position_m(), to.position_m()];
             let (kind, colour) = match self.is_rejected(index) {
                 true => (&mut rejected, REJECTED),
-                false if factor.from + 1 == factor.to => {
-                    (&mut odometry, draw::of_residual(sigmas))
-                }
+                false if factor.from + 1 == factor.to => (&mut odometry, draw::of_residual(sigmas)),
                 false => (&mut closures, draw::of_residual(sigmas)),
             };
             kind.ends.push(ends);
@@ -306,7 +308,11 @@ impl<'e, P: Manifold<D> + DrawnPose, const D: usize> Probe<OptimizerEvent<'e, P>
             OptimizerEvent::Started { poses, factor_chi2, weights, fill } => {
                 self.draw_last();
                 self.advance();
+                let first = self.iteration == Some(0);
                 self.attempt(|this| {
+                    if first {
+                        this.lay_out(poses)?;
+                    }
                     let options = &this.options;
                     let about = page::about(&options.name, &options.about, Some(&fill));
                     fixed(&this.stream, &ABOUT.into(), &TextDocument::from_markdown(about))?;

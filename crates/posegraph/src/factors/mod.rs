@@ -9,7 +9,6 @@ mod manifold;
 mod normal;
 mod se2;
 mod se3;
-mod sesync_cost;
 
 pub use cost::{chi2, chi2_of_factors};
 pub use curvature::Curvature;
@@ -19,4 +18,3 @@ pub use information::InformationPolicy;
 pub(crate) use information::admissible;
 pub use manifold::{Linearized, Manifold};
 pub use normal::NormalBlocks;
-pub use sesync_cost::{sesync_cost2, sesync_cost3};

@@ -15,6 +15,6 @@ mod spanning_tree;
 
 pub use chordal::chordal;
 pub use components::Components;
-pub use default::{Start, default_start, default_start_with};
+pub use default::{Origin, Start, Trial, default_start, default_start_with};
 pub use odometry::odometry;
 pub use spanning_tree::{given, spanning_tree};

@@ -37,12 +37,10 @@ pub(super) enum GraphCommand {
     )]
     Compare(CompareArgs),
     /// Write a graph or trajectory in another format
-    #[command(
-        long_about = "Write a graph or trajectory in another format.\n\n\
+    #[command(long_about = "Write a graph or trajectory in another format.\n\n\
             The format is told by the extension of OUT: .g2o, .graph or .toro (TORO), .tum; or by \
             --to. Poses of a graph become a trajectory with their ids as times; a trajectory becomes \
-            a graph without edges."
-    )]
+            a graph without edges.")]
     Convert(ConvertArgs),
     /// Make up a graph, with the poses that it was made from
     Generate(GenerateArgs),
@@ -74,6 +72,8 @@ pub(super) enum Init {
     Odometry,
     /// The fewest edges from the first vertex
     SpanningTree,
+    /// All edges at once by linear systems, rotations first
+    Chordal,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -123,6 +123,9 @@ pub(super) struct OptimizeArgs {
     /// What is done about wrong loop closures
     #[arg(long, default_value = "none")]
     pub(super) robust: Robust,
+    /// Solve SE-Sync's problem too, and tell whether its solution is the global optimum
+    #[arg(long)]
+    pub(super) certify: bool,
     /// End after this many iterations
     #[arg(long, value_name = "N", default_value_t = 100)]
     pub(super) max_iterations: usize,

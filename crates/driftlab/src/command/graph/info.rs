@@ -155,7 +155,10 @@ impl Facts {
             (None, given) => format!("- ({} poses have no line)", self.poses - given),
         };
         listed(&[
-            ("poses", format!("{} ({} with a line, {} held)", self.poses, self.poses_given, self.fixed)),
+            (
+                "poses",
+                format!("{} ({} with a line, {} held)", self.poses, self.poses_given, self.fixed),
+            ),
             (
                 "edges",
                 format!(

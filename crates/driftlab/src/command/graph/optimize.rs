@@ -7,10 +7,11 @@ use anyhow::anyhow;
 use formats::pose_graph::AnyGraph;
 use instrument::{DrawnPose, InstrumentError, OptimisationOptions, OptimisationRecording};
 use pose::{Se2, Se3};
-use posegraph::factors::{chi2, sesync_cost2, sesync_cost3};
+use posegraph::factors::chi2;
+use posegraph::synchronize::{Rigid, SynchronizeOptions};
 use posegraph::{
-    ErrorKind, FactorGraph, FactorGraph2, FactorGraph3, Loss, Manifold, Options, Solution, Solver,
-    Termination, optimize_with,
+    ErrorKind, FactorGraph, FactorGraph2, FactorGraph3, Loss, Options, Solution, Solver,
+    Termination, certify, sesync_cost,
 };
 use serde_json::{Value, json};
 
@@ -20,7 +21,7 @@ use super::args::{OptimizeArgs, Robust, SolverName};
 use super::input;
 use super::numbers::{listed, shown};
 use super::output::{self, Target};
-use super::start::start;
+use super::start::{self, Solved};
 
 /// An edge that weighs less at the end is listed as rejected.
 const REJECTED_BELOW: f64 = 0.5;
@@ -50,7 +51,10 @@ pub(super) fn optimize(args: &OptimizeArgs, out: &Out) -> Result<(), Failure> {
     let mut text = done.text;
     text.push_str(&listed(&[(
         "seconds",
-        format!("read {secs_read:.4}, start {:.4}, optimise {:.4}", done.secs_init, done.secs_optimize),
+        format!(
+            "read {secs_read:.4}, start {:.4}, optimise {:.4}",
+            done.secs_init, done.secs_optimize
+        ),
     )]));
     out.result(&json, &text)?;
     match done.failure {
@@ -60,24 +64,17 @@ pub(super) fn optimize(args: &OptimizeArgs, out: &Out) -> Result<(), Failure> {
 }
 
 /// What a dimension adds to the optimiser.
-trait Dimension<const D: usize>: Manifold<D> + DrawnPose {
-    fn sesync_cost(graph: &FactorGraph<Self, D>, poses: &[Self]) -> f64;
+trait Dimension<const D: usize>: Rigid<D> + DrawnPose {
     fn any(graph: FactorGraph<Self, D>) -> AnyGraph;
 }
 
 impl Dimension<3> for Se2 {
-    fn sesync_cost(graph: &FactorGraph2, poses: &[Self]) -> f64 {
-        sesync_cost2(graph, poses)
-    }
     fn any(graph: FactorGraph2) -> AnyGraph {
         AnyGraph::Plane(graph)
     }
 }
 
 impl Dimension<6> for Se3 {
-    fn sesync_cost(graph: &FactorGraph3, poses: &[Self]) -> f64 {
-        sesync_cost3(graph, poses)
-    }
     fn any(graph: FactorGraph3) -> AnyGraph {
         AnyGraph::Space(graph)
     }
@@ -98,9 +95,6 @@ fn solve<P: Dimension<D>, const D: usize>(
     args: &OptimizeArgs,
     out: &Out,
 ) -> Result<(AnyGraph, Done), Failure> {
-    let began = Instant::now();
-    let (poses, init) = start(&graph, args.init);
-    let secs_init = began.elapsed().as_secs_f64();
     let options = Options {
         solver: match args.solver {
             SolverName::Gn => Solver::GaussNewton,
@@ -112,18 +106,16 @@ fn solve<P: Dimension<D>, const D: usize>(
         threads: args.threads,
         ..Options::default()
     };
-    out.detail(&format!("starting from {init}"));
-
-    let began = Instant::now();
     let mut recording = match &args.record {
-        Some(path) => Some(record(&graph, &poses, path.clone(), args)?),
+        Some(path) => Some(record(&graph, path.clone(), args)?),
         None => None,
     };
-    let solution = match &mut recording {
-        Some(recording) => optimize_with(&graph, &poses, &options, recording),
-        None => optimize_with(&graph, &poses, &options, &mut probe::Off),
+    let solved = match &mut recording {
+        Some(recording) => start::solve(&graph, args.init, &options, recording),
+        None => start::solve(&graph, args.init, &options, &mut probe::Off),
     };
-    let secs_optimize = began.elapsed().as_secs_f64();
+    out.detail(&format!("started from {}", solved.init));
+    let solution = &solved.solution;
     for iteration in &solution.report.iterations {
         out.detail(&format!(
             "iteration {}: cost {:.9e}, step {:.3e}, damping {:.2e}, {}",
@@ -135,16 +127,53 @@ fn solve<P: Dimension<D>, const D: usize>(
         ));
     }
 
-    let done = tell(&graph, &solution, init, secs_init, secs_optimize, args);
+    let certificate = args.certify.then(|| certified(&graph, solution));
+    let mut done = tell(&graph, &solved, certificate.as_ref(), args);
     if let Some(recording) = recording {
         recording.finish(&done.json).map_err(unrecorded)?;
     }
-    let mut done = done;
     if let Some(path) = &args.record {
         done.json["recording"] = path.display().to_string().into();
     }
-    graph.initial = solution.poses.into_iter().map(Some).collect();
+    graph.initial = solved.solution.poses.into_iter().map(Some).collect();
     Ok((P::any(graph), done))
+}
+
+/// The certificate as JSON, and for people.
+struct Certified {
+    json: Value,
+    text: String,
+}
+
+fn certified<P: Rigid<D>, const D: usize>(
+    graph: &FactorGraph<P, D>,
+    solution: &Solution<P>,
+) -> Certified {
+    let began = Instant::now();
+    let found = certify(graph, &solution.poses, &SynchronizeOptions::default());
+    let secs = began.elapsed().as_secs_f64();
+    let verdict = found.verdict.name();
+    let json = json!({
+        "verdict": verdict,
+        "of": "SE-Sync's cost at its own solution, not chi2",
+        "eigenvalue": found.smallest_eigenvalue,
+        "precision": found.precision,
+        "gap": found.gap,
+        "sesync_cost": found.sesync_cost,
+        "rank": found.rank,
+        "reason": found.reason,
+        "secs": secs,
+    });
+    let text = format!(
+        "{verdict}: SE-Sync's cost {:.9} (another cost than chi2), gap {}, smallest eigenvalue {} to \
+         within {}; {}",
+        found.sesync_cost,
+        shown(found.gap),
+        shown(found.smallest_eigenvalue),
+        shown(found.precision),
+        found.reason
+    );
+    Certified { json, text }
 }
 
 fn loss(robust: Robust) -> Loss {
@@ -160,7 +189,6 @@ fn loss(robust: Robust) -> Loss {
 
 fn record<'a, P: Dimension<D>, const D: usize>(
     graph: &'a FactorGraph<P, D>,
-    start: &[P],
     path: PathBuf,
     args: &OptimizeArgs,
 ) -> Result<OptimisationRecording<'a, P, D>, Failure> {
@@ -173,7 +201,7 @@ fn record<'a, P: Dimension<D>, const D: usize>(
         graph.factors.len()
     );
     let options = OptimisationOptions { path, name, about };
-    OptimisationRecording::create(graph, start, options).map_err(unrecorded)
+    OptimisationRecording::create(graph, options).map_err(unrecorded)
 }
 
 fn unrecorded(error: InstrumentError) -> Failure {
@@ -198,15 +226,15 @@ fn measured(termination: &Termination) -> (Value, Value) {
 
 fn tell<P: Dimension<D>, const D: usize>(
     graph: &FactorGraph<P, D>,
-    solution: &Solution<P>,
-    init: &'static str,
-    secs_init: f64,
-    secs_optimize: f64,
+    solved: &Solved<P>,
+    certificate: Option<&Certified>,
     args: &OptimizeArgs,
 ) -> Done {
+    let Solved { solution, init, secs_init, secs_optimize, .. } = solved;
+    let (secs_init, secs_optimize) = (*secs_init, *secs_optimize);
     let report = &solution.report;
     let log_cost = chi2(graph, &solution.poses, ErrorKind::Log);
-    let sesync_cost = P::sesync_cost(graph, &solution.poses);
+    let sesync_cost = sesync_cost(graph, &solution.poses);
     let rejected: Vec<Value> = solution
         .weights
         .iter()
@@ -228,6 +256,7 @@ fn tell<P: Dimension<D>, const D: usize>(
         "edges": graph.factors.len(),
         "components": report.components,
         "init": init,
+        "init_trials": solved.trials,
         "chi2_initial": report.chi2_initial,
         "chi2": report.chi2,
         "cost": report.cost,
@@ -241,7 +270,7 @@ fn tell<P: Dimension<D>, const D: usize>(
         "secs_init": secs_init,
         "secs_optimize": secs_optimize,
         "rejected_edges": rejected,
-        "certificate": Value::Null,
+        "certificate": certificate.map(|certificate| certificate.json.clone()),
         "information": {
             "projected": policy.projected,
             "smallest_eigenvalue": policy.smallest_eigenvalue,
@@ -253,8 +282,8 @@ fn tell<P: Dimension<D>, const D: usize>(
             "factor": report.fill.factor,
         },
     });
-    let degrees = D as i64
-        * (graph.factors.len() as i64 - graph.ids.len() as i64 + report.components as i64);
+    let degrees =
+        D as i64 * (graph.factors.len() as i64 - graph.ids.len() as i64 + report.components as i64);
     let mut rows = vec![
         ("graph", format!("{} poses, {} edges", graph.ids.len(), graph.factors.len())),
         ("start", format!("{init}, chi2 {}", shown(report.chi2_initial))),
@@ -279,6 +308,9 @@ fn tell<P: Dimension<D>, const D: usize>(
     }
     if !policy.left_out.is_empty() {
         rows.push(("left out", format!("{} edges", policy.left_out.len())));
+    }
+    if let Some(certificate) = certificate {
+        rows.push(("certificate", certificate.text.clone()));
     }
     if args.robust != Robust::None {
         rows.push(("rejected", format!("{} edges", rejected.len())));

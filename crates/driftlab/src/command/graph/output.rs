@@ -57,8 +57,8 @@ impl Target {
             move |error: std::io::Error| Failure::Work(anyhow!("{path}: {error}"))
         };
         let written = fs::write(&waiting, bytes).map_err(refused(&self.path));
-        let renamed = written
-            .and_then(|()| fs::rename(&waiting, &self.path).map_err(refused(&self.path)));
+        let renamed =
+            written.and_then(|()| fs::rename(&waiting, &self.path).map_err(refused(&self.path)));
         if renamed.is_err() {
             // It may not even be there: the write itself can have failed.
             let _ = fs::remove_file(&waiting);
