@@ -63,7 +63,8 @@ fn close(a: f64, b: f64) -> bool {
 }
 
 fn hold_bits<P: Drawn<D>, const D: usize>(seed: u64) {
-    let graph = graph::<P, D>(seed, 400, 300, 0.02);
+    // More factors than one thread takes at a time.
+    let graph = graph::<P, D>(seed, 3000, 200, 0.02);
     let start = spanning_tree(&graph);
     let base = optimize(&graph, &start, &Options::default());
     for threads in [1, 2, 3] {

@@ -1,8 +1,10 @@
 //! A graph made ready for solving: who is free, where numbers go, what they are.
 
+mod linearize;
+
 use std::borrow::Cow;
 
-use pose::nalgebra::{SMatrix, SVector};
+use pose::nalgebra::SVector;
 
 use super::{Fill, Loss, LossOn, Options};
 use crate::factors::{ErrorKind, Factor, FactorGraph, InformationPolicy, Manifold, admissible};
@@ -35,6 +37,8 @@ pub(crate) struct Problem<'a, P: Manifold<D>, const D: usize> {
     kind: ErrorKind,
     loss: Loss,
     loss_on: LossOn,
+    threads: usize,
+    parts: Vec<Option<linearize::Part<D>>>,
     /// The weight that the caller gives each factor; 0 where it is left out.
     given: Vec<f64>,
     targets: Vec<Target>,
@@ -118,6 +122,8 @@ impl<'a, P: Manifold<D>, const D: usize> Problem<'a, P, D> {
             kind: options.error,
             loss: options.loss,
             loss_on: options.loss_on,
+            threads: options.threads.max(1),
+            parts: Vec::new(),
             weights: given.clone(),
             given,
             targets,
@@ -146,65 +152,6 @@ impl<'a, P: Manifold<D>, const D: usize> Problem<'a, P, D> {
     /// Number of unknowns.
     pub(crate) fn unknowns(&self) -> usize {
         self.free.len() * D
-    }
-
-    /// Linearises at these poses; returns the cost there, with losses and weights.
-    pub(crate) fn linearize(&mut self, poses: &[P]) -> f64 {
-        self.expand(poses, false)
-    }
-
-    /// Linearises, and adds the second derivatives that this leaves out where they are known and
-    /// factors have no loss: the matrix is then that of Newton's method, and may be indefinite.
-    pub(crate) fn expand(&mut self, poses: &[P], second_order: bool) -> f64 {
-        self.matrix.fill(0.0);
-        self.gradient.fill(0.0);
-        let mut cost = 0.0;
-        for (index, (factor, target)) in self.factors.iter().zip(&self.targets).enumerate() {
-            let given = self.given[index];
-            if given == 0.0 && self.is_left_out(index) {
-                continue;
-            }
-            let (from, to) = (&poses[factor.from], &poses[factor.to]);
-            let linear = P::linearize(self.kind, &factor.from_from_to, from, to);
-            let chi2 = linear.error.dot(&(factor.information * linear.error));
-            let loss = self.loss_of(factor);
-            let weight = given * loss.weight(chi2);
-            cost += given * loss.cost(chi2);
-            self.factor_chi2[index] = chi2;
-            self.weights[index] = weight;
-            if weight == 0.0 {
-                continue;
-            }
-            let mut blocks = P::normal_blocks(&linear, &factor.information);
-            if second_order
-                && loss == Loss::None
-                && let Some(curvature) = P::curvature(self.kind, &linear, &factor.information)
-            {
-                curvature.add_to(&mut blocks, &to.between(from).adjoint());
-            }
-            let Target { from, to, between } = *target;
-            if from != HELD {
-                add(&mut self.matrix, self.diagonals[from], weight, &blocks.from_from);
-                add_vector(&mut self.gradient, from, weight, &blocks.gradient_from);
-            }
-            if to != HELD {
-                add(&mut self.matrix, self.diagonals[to], weight, &blocks.to_to);
-                add_vector(&mut self.gradient, to, weight, &blocks.gradient_to);
-            }
-            if from != HELD && to != HELD {
-                if to > from {
-                    add(&mut self.matrix, between, weight, &blocks.to_from);
-                } else {
-                    add(&mut self.matrix, between, weight, &blocks.to_from.transpose());
-                }
-            }
-        }
-        for (diagonal, slot) in self.diagonal.chunks_exact_mut(D).zip(&self.diagonals) {
-            for (k, entry) in diagonal.iter_mut().enumerate() {
-                *entry = self.matrix[slot.start + k * (slot.stride + 1)];
-            }
-        }
-        cost
     }
 
     /// The cost at these poses; updates what is known of each factor, but not the linearisation.
@@ -327,27 +274,5 @@ impl<'a, P: Manifold<D>, const D: usize> Problem<'a, P, D> {
             sum += weight * change.dot(&(factor.information * change));
         }
         sum
-    }
-}
-
-#[inline]
-fn add<const D: usize>(matrix: &mut [f64], slot: Slot, weight: f64, block: &SMatrix<f64, D, D>) {
-    for column in 0..D {
-        let start = slot.start + column * slot.stride;
-        for (entry, part) in matrix[start..start + D].iter_mut().zip(block.column(column).iter()) {
-            *entry += weight * part;
-        }
-    }
-}
-
-#[inline]
-fn add_vector<const D: usize>(
-    gradient: &mut [f64],
-    position: usize,
-    weight: f64,
-    part: &SVector<f64, D>,
-) {
-    for (entry, part) in gradient[position * D..(position + 1) * D].iter_mut().zip(part.iter()) {
-        *entry += weight * part;
     }
 }
