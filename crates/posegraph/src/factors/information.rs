@@ -39,6 +39,8 @@ pub(crate) fn admissible<P: Manifold<D>, const D: usize>(
     let mut policy = InformationPolicy::default();
     let mut factors = Cow::Borrowed(graph.factors.as_slice());
     let count = graph.ids.len();
+    // Most graphs repeat one matrix over and over.
+    let mut last_good = None;
     for (index, factor) in graph.factors.iter().enumerate() {
         let leads = factor.from < count && factor.to < count && factor.from != factor.to;
         let information = &factor.information;
@@ -48,8 +50,12 @@ pub(crate) fn admissible<P: Manifold<D>, const D: usize>(
             policy.left_out.push(index);
             continue;
         }
+        if last_good == Some(information) {
+            continue;
+        }
         let symmetric = is_symmetric(information);
         if symmetric && has_cholesky(information) {
+            last_good = Some(information);
             continue;
         }
         let half = information.transpose() * 0.5 + information * 0.5;

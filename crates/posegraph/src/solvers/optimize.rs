@@ -53,8 +53,8 @@ pub fn optimize_weighted<P: Manifold<D>, const D: usize>(
     };
     let mut chi2_initial = f64::NAN;
     let termination = if start.len() == count {
-        chi2_initial = problem.chi2(start);
         state.cost = problem.linearize(start);
+        chi2_initial = problem.known_chi2();
         if probe.on() {
             probe.emit(OptimizerEvent::Started {
                 poses: start,
@@ -77,9 +77,10 @@ pub fn optimize_weighted<P: Manifold<D>, const D: usize>(
             Termination::NotFinite { chi2: state.cost }
         }
     } else {
+        problem.factor_chi2.fill(f64::NAN);
         Termination::StartMissing { poses: start.len(), vertices: count }
     };
-    let chi2 = problem.chi2(&state.poses);
+    let chi2 = problem.known_chi2();
     let report = Report {
         termination,
         chi2_initial,

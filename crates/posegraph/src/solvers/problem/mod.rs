@@ -190,12 +190,9 @@ impl<'a, P: Manifold<D>, const D: usize> Problem<'a, P, D> {
         cost
     }
 
-    /// `χ²` at these poses without losses and weights, of all factors that are used.
-    pub(crate) fn chi2(&self, poses: &[P]) -> f64 {
-        (self.each_chi2(poses).enumerate())
-            .filter(|(index, _)| !self.is_left_out(*index))
-            .map(|(_, chi2)| chi2)
-            .sum()
+    /// `χ²` without losses and weights at the last evaluation, of all factors that are used.
+    pub(crate) fn known_chi2(&self) -> f64 {
+        self.factor_chi2.iter().sum()
     }
 
     fn each_chi2<'b>(&'b self, poses: &'b [P]) -> impl Iterator<Item = f64> + use<'a, 'b, P, D> {
