@@ -34,6 +34,11 @@ fn dot(a: &[f64], b: &[f64]) -> f64 {
 /// Smallest damping, as a share of the diagonal of `M`: makes up for directions without curvature.
 const LEAST: f64 = 1e-12;
 
+/// Shares of the multipliers that are taken off the quadratic form: 0 gives Gauss and Newton's matrix,
+/// 1 the Hessian. What is between is damped by the form itself, which does not hold back where the
+/// cost is flat, as a multiple of the identity does.
+const SHARES: [f64; 6] = [0.0, 0.5, 0.9, 0.99, 0.999, 1.0];
+
 /// Where a step promises less than this share of the cost, the Hessian is no longer cut short.
 const NEAR: f64 = 1e-3;
 
@@ -42,11 +47,12 @@ const NEAR: f64 = 1e-3;
 /// 1. Half the cost has the gradient `P(M X)` and the Hessian `V ↦ P(S V)`, `S = M - Λ` (Rosen et al.
 ///    2019, eq. 38), `P` the projection to the tangent space. In a basis of that space ([`Tangent`])
 ///    it has the pattern of the graph, with blocks of `d (d - 1) / 2 + (r - d) d + r` rows.
-/// 2. At rank `d` the part `-P(Λ V)` is left out until a step promises less than [`NEAR`] of the cost:
-///    what is left is Gauss and Newton's matrix, never indefinite, whose steps pass far-off stretches
-///    where Newton's are too long.
-/// 3. The matrix is factorised with damping, a multiple of the diagonal of `M`, that grows where the
-///    factorisation or the step fails, and shrinks where the step keeps its promise.
+/// 2. Of the part `-P(Λ V)` only a share is taken, see [`SHARES`]. At rank `d` it is none until a step
+///    promises less than [`NEAR`] of the cost: what is left is Gauss and Newton's matrix, never
+///    indefinite, whose steps pass far-off stretches where Newton's are too long. Then it is all,
+///    and less again where the factorisation or the step fails.
+/// 3. Where even Gauss and Newton's step fails, a multiple of the diagonal of `M` is added, which grows
+///    until a step succeeds, and shrinks where steps keep their promise.
 /// 4. Done where an undamped Newton step promised less than the asked share of the cost, and was taken.
 ///
 /// The first vertex of each component stands still. Deviates from Rosen et al., who truncate
@@ -66,7 +72,8 @@ pub(crate) fn descend<const B: usize>(
     let floor = 1e-24 * problem.scale;
     let mut factor = BlockCholesky::new(&problem.pattern, Tangent::<B>::size(rank));
     let mut damping = 0.0_f64;
-    let mut near = rank > B - 1;
+    // Rank d starts as Gauss and Newton do; higher ranks start beside a saddle point.
+    let mut level = if rank == B - 1 { 0 } else { SHARES.len() - 3 };
     let mut iterations = 0;
     let mut lagrange = multipliers::<B>(rows, &x, &product);
     let mut tangent = Tangent::<B>::new(rows, &x);
@@ -81,9 +88,13 @@ pub(crate) fn descend<const B: usize>(
             return end(x, cost, lagrange, false);
         }
         iterations += 1;
-        let share = if near { 1.0 } else { 0.0 };
+        let share = SHARES[level];
         assemble(problem, &tangent, &lagrange, share, damping.max(LEAST), &mut factor);
         if !factor.factorize() {
+            if level > 0 {
+                level -= 1;
+                continue;
+            }
             damping = (damping * 10.0).max(1e-9);
             if damping > 1e6 {
                 return end(x, cost, lagrange, false);
@@ -111,7 +122,11 @@ pub(crate) fn descend<const B: usize>(
             accepted,
         });
         if !accepted {
-            damping = (damping * 10.0).max(1e-9);
+            if level > 0 {
+                level = level.saturating_sub(2);
+                continue;
+            }
+            damping = (damping * 10.0).max(1e-6);
             if damping > 1e6 {
                 return end(x, cost, lagrange, false);
             }
@@ -123,11 +138,16 @@ pub(crate) fn descend<const B: usize>(
         subtract_product(rows, &lagrange, &x, &mut product);
         tangent = Tangent::<B>::new(rows, &x);
         gradient = tangent.coordinates(&product);
-        let near_before = near;
-        near = near || promised <= NEAR * cost;
-        let small = promised <= limits.relative_decrease * cost + floor;
-        if small && near_before && damping <= LEAST {
+        let whole = level + 1 == SHARES.len() && damping <= LEAST;
+        if whole && promised <= limits.relative_decrease * cost + floor {
             return end(x, cost, lagrange, true);
+        }
+        if gain < 0.25 {
+            level = level.saturating_sub(1);
+        } else if level > 0 {
+            level = (level + 1).min(SHARES.len() - 1);
+        } else if promised <= NEAR * cost {
+            level = if damping <= LEAST { SHARES.len() - 1 } else { 1 };
         }
         if gain > 0.75 {
             damping = if damping < 1e-9 { 0.0 } else { damping * 0.1 };

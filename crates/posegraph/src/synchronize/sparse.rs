@@ -199,6 +199,9 @@ impl BlockCholesky {
     pub(crate) fn solve(&mut self, columns: &mut [f64]) {
         debug_assert!(self.ready, "solved without a factor");
         let n = self.rows();
+        if n == 0 {
+            return;
+        }
         for chunk in columns.chunks_mut(WIDTH * n) {
             let width = chunk.len() / n;
             SupernodalLltRef::new(&self.symbolic, &self.factor).solve_in_place_with_conj(

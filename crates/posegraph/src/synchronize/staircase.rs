@@ -24,7 +24,7 @@ pub struct SynchronizeOptions {
 
 impl Default for SynchronizeOptions {
     fn default() -> Self {
-        Self { max_rank: 10, iterations: 200, relative_decrease: 1e-9, relative_gap: 1e-6 }
+        Self { max_rank: 10, iterations: 200, relative_decrease: 1e-12, relative_gap: 1e-6 }
     }
 }
 

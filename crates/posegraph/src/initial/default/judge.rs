@@ -6,9 +6,8 @@ use crate::factors::{FactorGraph, InformationPolicy};
 use crate::solvers::Solution;
 use crate::synchronize::Rigid;
 
-/// A loop whose rotation errors add up to more than this may be wound once too often: with the same
-/// measurements the sum could as well be a full turn less, and a quarter of a turn leaves a margin
-/// of two to either side of what is certain.
+/// A loop whose rotation errors add up to more than this, about each axis that a rotation has, may be
+/// wound once too often: with the same measurements the sum could as well be a full turn less.
 const LOOP_RAD: f64 = std::f64::consts::FRAC_PI_2;
 
 /// `χ²` may exceed its expectation by so many standard deviations.
@@ -61,12 +60,13 @@ pub(super) fn judge<P: Rigid<D>, const D: usize>(
     let degrees = (D * used).saturating_sub(D * free);
     let limit = degrees as f64 + DEVIATIONS * (2.0 * degrees as f64).sqrt();
     let (factor, sum_rad) = worst_loop(graph, &report.information, &solution.poses);
+    let limit_rad = LOOP_RAD * (if P::DIM == 2 { 1.0 } else { 3.0_f64 }).sqrt();
     let doubt = if !report.termination.is_converged() {
         Some(Doubt::NotConverged)
     } else if report.chi2 > limit {
         Some(Doubt::Cost { chi2: report.chi2, limit })
-    } else if sum_rad > LOOP_RAD {
-        Some(Doubt::Loop { factor, sum_rad, limit_rad: LOOP_RAD })
+    } else if sum_rad > limit_rad {
+        Some(Doubt::Loop { factor, sum_rad, limit_rad })
     } else {
         None
     };
@@ -160,5 +160,45 @@ impl Tree {
             }
         }
         Self { steps }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use pose::Se2;
+    use pose::nalgebra::Matrix3;
+
+    use super::{Doubt, judge};
+    use crate::factors::{Factor, FactorGraph};
+    use crate::solvers::{Options, optimize};
+
+    /// A ring measured without noise, and the solution from a start that turns this often on the way.
+    fn doubt_of(turns: f64, information: f64) -> Option<Doubt> {
+        let count = 60;
+        let step = std::f64::consts::TAU / f64::from(count);
+        let information = Matrix3::from_diagonal(&[1e-6, 1e-6, information].into());
+        let from_from_to = Se2::new(1.0, 0.0, step);
+        let count = count as usize;
+        let graph = FactorGraph {
+            ids: (0..count as u64).collect(),
+            initial: vec![None; count],
+            fixed: Vec::new(),
+            factors: (0..count)
+                .map(|k| Factor { from: k, to: (k + 1) % count, from_from_to, information })
+                .collect(),
+        };
+        let mut start = vec![Se2::identity()];
+        for k in 1..count {
+            let last = start[k - 1];
+            start.push(last * Se2::new(1.0, 0.0, turns * step));
+        }
+        judge(&graph, &optimize(&graph, &start, &Options::default())).doubt
+    }
+
+    #[test]
+    fn a_loop_wound_twice_is_doubted_however_low_its_cost() {
+        assert_eq!(doubt_of(1.0, 0.5), None);
+        assert!(matches!(doubt_of(2.0, 0.5), Some(Doubt::Loop { sum_rad, .. }) if sum_rad > 6.0));
+        assert!(matches!(doubt_of(2.0, 500.0), Some(Doubt::Cost { .. })));
     }
 }

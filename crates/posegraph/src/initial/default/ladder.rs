@@ -105,7 +105,7 @@ pub fn default_start_with<P: Rigid<D>, const D: usize>(
         return start;
     }
     let mut better: Option<Better<P>> = None;
-    let effort = SynchronizeOptions { max_rank: P::DIM + 2, iterations: 50, ..Default::default() };
+    let effort = SynchronizeOptions { max_rank: P::DIM + 1, iterations: 40, ..Default::default() };
     let certificate = certify(graph, &start.solution.poses, &effort);
     start.verdict = Some(certificate.verdict);
     let same_valley = certificate.verdict == Verdict::GloballyOptimal && certificate.rank == P::DIM;

@@ -9,7 +9,7 @@
 //!    - `χ²` is at most its expectation, the degrees of freedom `ν`, and five standard deviations
 //!      `√(2 ν)` more, which catches wrong minima where the information matrices are right;
 //!    - rotation errors, added up around each loop of a breadth-first tree, stay below a quarter of a
-//!      turn. This has no unit, so it holds where the information matrices are far too small and any
+//!      turn about each axis. This has no unit, so it holds where the information matrices are far too small and any
 //!      `χ²` would look good: a solution that winds around a loop once too often has errors there that
 //!      add up to a full turn, minus what noise leaves.
 //!

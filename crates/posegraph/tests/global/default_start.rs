@@ -1,0 +1,92 @@
+//! The default start reaches what a start at the truth reaches.
+
+use pose::Se2;
+use posegraph::initial::default::Origin;
+use posegraph::synthetic::{Noise, Sphere, Synthetic, Torus, Walk, sphere, torus, walk};
+use posegraph::{
+    FactorGraph, Loss, Options, Rigid, SynchronizeOptions, certify, default_start, optimize,
+};
+
+use super::graphs::{noisy2, ring2};
+
+fn reaches<P: Rigid<D>, const D: usize>(made: &Synthetic<P, D>) -> Origin {
+    let options = Options::default();
+    let found = default_start(&made.graph, &options);
+    let known = optimize(&made.graph, &made.truth, &options).report.chi2;
+    let chi2 = found.solution.report.chi2;
+    assert!(chi2 <= known * (1.0 + 1e-6), "{chi2} against {known}: {:?}", found.trials);
+    let again = optimize(&made.graph, &found.poses, &options).report.chi2;
+    assert!((again - chi2).abs() <= 1e-6 * chi2);
+    found.origin
+}
+
+#[test]
+fn towns_spheres_and_tori_are_solved() {
+    for rotation_rad in [0.01, 0.1] {
+        let noise = Noise { translation_m: 0.05, rotation_rad };
+        reaches(&walk(&Walk { poses: 300, noise, ..Walk::manhattan() }));
+        let params = Sphere { rounds: 8, poses_per_round: 10, noise, ..Default::default() };
+        reaches(&sphere(&params));
+        let params = Torus { rounds: 8, poses_per_round: 8, noise, ..Default::default() };
+        reaches(&torus(&params));
+    }
+}
+
+/// Few closures of long loops, as at MIT's Killian Court: what is rarely reached from odometry.
+#[test]
+fn long_loops_with_few_closures_are_solved() {
+    for seed in 0..6 {
+        let made = walk(&Walk {
+            poses: 500,
+            blocks: 3,
+            steps_per_block: 15,
+            step_m: 2.0,
+            closure_probability: 0.1,
+            closures_per_pose: 1,
+            noise: Noise { translation_m: 0.05, rotation_rad: 0.03 },
+            seed,
+            ..Walk::manhattan()
+        });
+        let closures = made.graph.factors.len() - (made.truth.len() - 1);
+        assert!((3..120).contains(&closures), "{closures} closures");
+        reaches(&made);
+    }
+}
+
+#[test]
+fn an_exact_ring_is_not_doubted() {
+    let graph = ring2(60);
+    let options = Options::default();
+    let found = default_start(&graph, &options);
+    assert!(found.solution.report.chi2 < 1e-12);
+    assert_eq!(found.judgement.doubt, None);
+    assert!(found.judgement.loop_rad < 1e-6);
+}
+
+#[test]
+fn several_fixed_vertices_are_respected() {
+    let (mut graph, truth) = noisy2(20, 15, 0.05, 4);
+    graph.initial = truth.iter().copied().map(Some).collect();
+    graph.fixed = vec![2, 9];
+    let found = default_start(&graph, &Options::default());
+    assert_eq!(found.solution.poses[2], truth[2]);
+    assert_eq!(found.solution.poses[9], truth[9]);
+}
+
+#[test]
+fn outliers_are_not_trusted() {
+    let (graph, _) = noisy2(20, 15, 0.05, 4);
+    let options = Options { loss: Loss::Cauchy { width: 2.0 }, ..Default::default() };
+    assert_eq!(default_start(&graph, &options).origin, Origin::Odometry);
+}
+
+#[test]
+fn empty_and_lonely_graphs_are_answered() {
+    let mut graph = FactorGraph::<Se2, 3>::default();
+    assert!(default_start(&graph, &Options::default()).poses.is_empty());
+    graph.ids.push(7);
+    graph.initial.push(None);
+    assert_eq!(default_start(&graph, &Options::default()).poses.len(), 1);
+    let nothing = certify(&graph, &[Se2::identity()], &SynchronizeOptions::default());
+    assert_eq!(nothing.verdict.name(), "not_applicable");
+}
