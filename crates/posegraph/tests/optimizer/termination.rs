@@ -1,14 +1,15 @@
 //! Every way in which an optimisation can end, and what a probe sees of it.
 
-use pose::Se2;
+use pose::{Se2, Se3};
+use posegraph::factors::chi2;
 use posegraph::initial::odometry;
 use posegraph::{
-    FactorGraph2, Loss, LossOn, OptimizerEvent, Options, Solver, Termination, optimize,
+    FactorGraph2, Loss, LossOn, Manifold, OptimizerEvent, Options, Solver, Termination, optimize,
     optimize_with,
 };
 use probe::Probe;
 
-use crate::oracle::graph;
+use crate::oracle::{Draw, Drawn, graph};
 
 #[test]
 fn the_limit_of_iterations_is_kept() {
@@ -110,4 +111,22 @@ fn a_probe_sees_every_iteration_and_changes_nothing() {
     assert_eq!((seen.started, seen.costs.len()), (1, watched.report.iterations.len() + 1));
     let (last, finished) = (seen.costs[seen.costs.len() - 1], seen.finished.unwrap());
     assert!((last - finished).abs() <= 1e-12 * finished);
+}
+
+#[test]
+fn wild_starts_end_somewhere_and_never_above_where_they_began() {
+    for seed in 0..12 {
+        let graph = graph::<Se3, 6>(seed, 40, 60, 0.3);
+        let draw = &mut Draw(seed);
+        let start: Vec<Se3> = (0..40).map(|_| Se3::drawn(draw, 100.0, 3.1)).collect();
+        for solver in [Solver::GaussNewton, Solver::LevenbergMarquardt, Solver::Dogleg] {
+            let options = Options { solver, max_iterations: 60, ..Options::default() };
+            let solution = optimize(&graph, &start, &options);
+            let report = solution.report;
+            assert!(report.chi2 <= report.chi2_initial, "{seed} {solver:?} {report:?}");
+            assert!(solution.poses.iter().all(Manifold::is_finite), "{seed} {solver:?}");
+            let cost = chi2(&graph, &solution.poses, options.error);
+            assert!((cost - report.chi2).abs() <= 1e-9 * cost, "{seed} {solver:?}");
+        }
+    }
 }
