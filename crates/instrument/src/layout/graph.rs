@@ -42,7 +42,8 @@ fn graph(layout: &mut Layout<'_>, look: &GraphLook) -> RecordingStreamResult<Wri
     let name = "poses and edges: grey fits, yellow strains, red is far off".to_owned();
     let contents = vec!["+ /graph/**".to_owned(), "- /graph/events/**".to_owned()];
     if look.in_space {
-        let dark = Background::new(BackgroundKind::GradientDark);
+        let night = rerun::Color::from_rgb(16, 18, 24);
+        let dark = Background::new(BackgroundKind::SolidColor).with_color(night);
         let (class, origin) = ("3D", "/".to_owned());
         let properties: Vec<super::arrange::Property<'_>> = vec![("Background", &dark)];
         return layout.view(&View { class, name, origin, contents, properties });
@@ -87,7 +88,7 @@ fn side(layout: &mut Layout<'_>) -> RecordingStreamResult<Written> {
     let cost = plot(layout, "log10 of cost and step", &["log10_cost", "log10_step_norm"])?;
     let histogram = layout.view(&View {
         class: "BarChart",
-        name: "edges by residual".to_owned(),
+        name: "edges by log2 of their residual".to_owned(),
         origin: "/edges/histogram".to_owned(),
         contents: vec!["+ $origin".to_owned()],
         properties: vec![],

@@ -1,17 +1,20 @@
 //! The listener of an optimiser.
 
 use std::path::PathBuf;
+use std::sync::Arc;
 
 use posegraph::{FactorGraph, Iteration, Manifold, OptimizerEvent, Report};
 use probe::Probe;
+use rerun::external::arrow::array::StringArray;
+use rerun::external::re_sdk_types::SerializedComponentBatch;
 use rerun::{
-    AnyValues, BarChart, RecordingStream, RecordingStreamBuilder, Scalars, SeriesLines,
-    TextDocument,
+    AnyValues, AsComponents as _, BarChart, RecordingStream, RecordingStreamBuilder, Scalars,
+    SeriesLines, TextDocument, TextLog,
 };
 
 use super::draw::{self, DrawnPose, REJECTED, Strokes};
 use super::page;
-use crate::columns::{EventTexts, Now, Rgba, eye, fixed, rgb};
+use crate::columns::{Rgba, VARIANT, eye, fixed, rgb};
 use crate::recording::{ABOUT, METRICS, RESULT};
 use crate::{InstrumentError, layout, palette};
 
@@ -49,7 +52,6 @@ pub struct OptimisationRecording<'a, P, const D: usize> {
     drawn: bool,
     weights: Vec<f64>,
     last: Option<(Vec<P>, Vec<f64>)>,
-    events: EventTexts,
     /// The first refusal, which ends the recording.
     refusal: Option<InstrumentError>,
 }
@@ -92,7 +94,6 @@ impl<'a, P: Manifold<D> + DrawnPose, const D: usize> OptimisationRecording<'a, P
             drawn: false,
             weights: Vec::new(),
             last: None,
-            events: EventTexts::new("graph/events/optimizer", rgb(90, 90, 90)),
             refusal: None,
         })
     }
@@ -106,7 +107,6 @@ impl<'a, P: Manifold<D> + DrawnPose, const D: usize> OptimisationRecording<'a, P
         if let Some(refusal) = self.refusal.take() {
             return Err(refusal);
         }
-        self.events.send(&self.stream)?;
         let json = TextDocument::new(metrics.to_string()).with_media_type("application/json");
         fixed(&self.stream, &METRICS.into(), &json)?;
         self.stream.flush_blocking().map_err(|e| InstrumentError::Write {
@@ -139,9 +139,19 @@ impl<'a, P: Manifold<D> + DrawnPose, const D: usize> OptimisationRecording<'a, P
         self.stream.set_time_sequence("iteration", next);
     }
 
-    fn say(&mut self, variant: &'static str, line: std::fmt::Arguments<'_>) {
-        let step = self.iteration.unwrap_or(0);
-        self.events.push(variant, line, &Now { step, ..Now::default() });
+    /// Logs an event: its name as data, and one line of text.
+    fn say(
+        &self,
+        variant: &'static str,
+        line: std::fmt::Arguments<'_>,
+    ) -> Result<(), InstrumentError> {
+        const PATH: &str = "graph/events/optimizer";
+        let mut batches = TextLog::new(format!("{variant}: {line}")).as_serialized_batches();
+        let name = Arc::new(StringArray::from(vec![variant]));
+        batches.push(SerializedComponentBatch::new(name, VARIANT.clone()));
+        self.stream.log_serialized_batches(PATH, false, batches).map_err(|error| {
+            InstrumentError::Rows { entity: PATH.to_owned(), reason: error.to_string() }
+        })
     }
 
     fn plot(&self, name: &str, value: f64) -> Result<(), InstrumentError> {
@@ -211,7 +221,9 @@ impl<'a, P: Manifold<D> + DrawnPose, const D: usize> OptimisationRecording<'a, P
             let ends = [from.position_m(), to.position_m()];
             let (kind, colour) = match self.is_rejected(index) {
                 true => (&mut rejected, REJECTED),
-                false if factor.from + 1 == factor.to => (&mut odometry, draw::of_residual(sigmas)),
+                false if factor.from.abs_diff(factor.to) == 1 => {
+                    (&mut odometry, draw::of_residual(sigmas))
+                }
                 false => (&mut closures, draw::of_residual(sigmas)),
             };
             kind.ends.push(ends);
@@ -250,7 +262,8 @@ impl<'a, P: Manifold<D> + DrawnPose, const D: usize> OptimisationRecording<'a, P
             let bar = residual::<D>(chi2).log2() + 5.0;
             counts[(bar.max(0.0) as usize).min(BARS - 1)] += 1;
         }
-        let bars = BarChart::new(counts.to_vec());
+        let logarithms: Vec<f64> = (0..BARS).map(|bar| bar as f64 - 4.5).collect();
+        let bars = BarChart::new(counts.to_vec()).with_abscissa(logarithms);
         self.stream.log("edges/histogram", &bars).map_err(|error| InstrumentError::Rows {
             entity: "edges/histogram".to_owned(),
             reason: error.to_string(),
@@ -271,8 +284,7 @@ impl<'a, P: Manifold<D> + DrawnPose, const D: usize> OptimisationRecording<'a, P
                 "{index}: step {step_norm:.3e} {taken}, cost {cost:.6e}, gain ratio {gain_ratio:.3}, \
                  damping {damping:.2e}"
             ),
-        );
-        Ok(())
+        )
     }
 
     fn finished(&mut self, report: &Report) -> Result<(), InstrumentError> {
@@ -295,8 +307,7 @@ impl<'a, P: Manifold<D> + DrawnPose, const D: usize> OptimisationRecording<'a, P
                 report.iterations.len(),
                 report.chi2
             ),
-        );
-        Ok(())
+        )
     }
 }
 
@@ -327,7 +338,7 @@ impl<'e, P: Manifold<D> + DrawnPose, const D: usize> Probe<OptimizerEvent<'e, P>
                             fill.unknowns,
                             fill.factor
                         ),
-                    );
+                    )?;
                     this.state(poses, factor_chi2, weights)
                 });
             }

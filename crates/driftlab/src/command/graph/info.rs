@@ -95,8 +95,12 @@ impl Facts {
         }
         let poses_given = graph.initial.iter().flatten().count();
         let complete = poses_given == poses && poses > 0;
-        let chained = |factor: &&posegraph::Factor<P, D>| factor.from + 1 == factor.to;
-        let path = graph.factors.iter().filter(chained);
+        // The first edge between each pose and the next, whichever way it points.
+        let mut steps = vec![None; poses];
+        for factor in graph.factors.iter().filter(|f| f.from.abs_diff(f.to) == 1) {
+            let step = &mut steps[factor.from.min(factor.to)];
+            step.get_or_insert_with(|| length(&factor.from_from_to));
+        }
         let conditioning = Conditioning::of(graph);
         Self {
             poses,
@@ -108,7 +112,7 @@ impl Facts {
             components: components.count(),
             largest_component: sizes.into_iter().max().unwrap_or(0),
             degree: Spread::of(degree),
-            length_m: path.map(|factor| length(&factor.from_from_to)).sum(),
+            length_m: steps.into_iter().flatten().fold(0.0, |sum, step| sum + step),
             degrees_of_freedom: D as i64
                 * (graph.factors.len() as i64 - poses as i64 + components.count() as i64),
             chi2_of_file: complete.then(|| chi2(graph, &given(graph), ErrorKind::G2o)),

@@ -48,15 +48,15 @@ pub(super) fn optimize(args: &OptimizeArgs, out: &Out) -> Result<(), Failure> {
     json["secs_write"] = secs_write.into();
     json["unknown_tags"] = unknown_tags;
     json["warnings"] = warnings;
-    let mut text = done.text;
-    text.push_str(&listed(&[(
+    let mut rows = done.rows;
+    rows.push((
         "seconds",
         format!(
             "read {secs_read:.4}, start {:.4}, optimise {:.4}",
             done.secs_init, done.secs_optimize
         ),
-    )]));
-    out.result(&json, &text)?;
+    ));
+    out.result(&json, &listed(&rows))?;
     match done.failure {
         Some(failure) => Err(failure),
         None => Ok(()),
@@ -83,7 +83,7 @@ impl Dimension<6> for Se3 {
 /// What is told in the end.
 struct Done {
     json: Value,
-    text: String,
+    rows: Vec<(&'static str, String)>,
     secs_init: f64,
     secs_optimize: f64,
     failure: Option<Failure>,
@@ -322,5 +322,5 @@ fn tell<P: Dimension<D>, const D: usize>(
         }
         _ => None,
     };
-    Done { json, text: listed(&rows), secs_init, secs_optimize, failure }
+    Done { json, rows, secs_init, secs_optimize, failure }
 }
