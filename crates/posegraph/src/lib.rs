@@ -21,7 +21,7 @@ pub use placement::{
     Edge, EdgeKind, Link, Placed, Placement, PoseGraph, Scope, ScopeScratch, Skeleton, Via,
 };
 pub use solvers::{
-    Fill, Iteration, Loss, LossOn, OptimizerEvent, Options, Report, Solution, Solver, Termination,
-    optimize, optimize_weighted, optimize_with,
+    Fill, Iteration, Loss, LossOn, Optimizer, OptimizerEvent, Options, Report, Solution, Solver,
+    Termination, optimize, optimize_weighted, optimize_with,
 };
 pub use synchronize::{Rigid, SynchronizeEvent, SynchronizeOptions, sesync_cost};

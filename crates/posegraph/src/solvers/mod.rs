@@ -32,6 +32,6 @@ mod state;
 
 pub use event::{Fill, OptimizerEvent};
 pub use loss::{Loss, LossOn};
-pub use optimize::{optimize, optimize_weighted, optimize_with};
+pub use optimize::{Optimizer, optimize, optimize_weighted, optimize_with};
 pub use options::{Options, Solver};
 pub use report::{Iteration, Report, Solution, Termination};

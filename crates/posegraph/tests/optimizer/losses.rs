@@ -2,7 +2,7 @@
 
 use pose::Se2;
 use posegraph::initial::odometry;
-use posegraph::{Factor, Loss, LossOn, Options, optimize, optimize_weighted};
+use posegraph::{Factor, Loss, LossOn, Optimizer, Options, optimize, optimize_weighted};
 use probe::Off;
 use proptest::prelude::*;
 
@@ -72,4 +72,21 @@ fn a_factor_of_weight_zero_has_no_say() {
     assert!(distance(&solution.poses, &expected.poses) < 1e-7);
     assert!((solution.report.cost - expected.report.cost).abs() < 1e-9);
     assert!(solution.report.chi2 > expected.report.chi2 + 1.0);
+}
+
+#[test]
+fn an_optimizer_forgets_its_earlier_runs() {
+    let graph = graph::<Se2, 3>(23, 40, 30, 0.05);
+    let start = odometry(&graph);
+    let options = Options::default();
+    let weights: Vec<f64> =
+        (0..graph.factors.len()).map(|index| 0.1 + (index % 7) as f64).collect();
+    let mut optimizer = Optimizer::new(&graph, &options);
+    let first = optimizer.run(&start, &[], &mut Off);
+    let second = optimizer.run(&first.poses, &weights, &mut Off);
+    let third = optimizer.run(&start, &[], &mut Off);
+    assert_eq!(first, optimize(&graph, &start, &options));
+    assert_eq!(second, optimize_weighted(&graph, &first.poses, &weights, &options, &mut Off));
+    assert_eq!(third, first);
+    assert!(distance(&second.poses, &first.poses) > 1e-6);
 }

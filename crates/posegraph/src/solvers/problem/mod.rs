@@ -60,13 +60,8 @@ pub(crate) struct Problem<'a, P: Manifold<D>, const D: usize> {
 
 impl<'a, P: Manifold<D>, const D: usize> Problem<'a, P, D> {
     /// Analyses a graph: symbolic work that no iteration repeats.
-    pub(crate) fn new(graph: &'a FactorGraph<P, D>, weights: &[f64], options: &Options) -> Self {
+    pub(crate) fn new(graph: &'a FactorGraph<P, D>, options: &Options) -> Self {
         let (factors, information) = admissible(graph);
-        let mut given: Vec<f64> = weights.iter().copied().take(factors.len()).collect();
-        given.resize(factors.len(), 1.0);
-        for &index in &information.left_out {
-            given[index] = 0.0;
-        }
         let count = graph.ids.len();
         let used = |index: usize| information.left_out.binary_search(&index).is_err();
         let joins = || {
@@ -124,8 +119,8 @@ impl<'a, P: Manifold<D>, const D: usize> Problem<'a, P, D> {
             loss_on: options.loss_on,
             threads: options.threads.max(1),
             parts: Vec::new(),
-            weights: given.clone(),
-            given,
+            weights: vec![0.0; factors.len()],
+            given: vec![0.0; factors.len()],
             targets,
             free: ordered,
             diagonals: (0..pattern.blocks()).map(|at| pattern.diagonal(at)).collect(),
@@ -135,6 +130,19 @@ impl<'a, P: Manifold<D>, const D: usize> Problem<'a, P, D> {
             gradient: vec![0.0; unknowns],
             factor_chi2: vec![0.0; factors.len()],
             factors,
+        }
+    }
+
+    /// Takes the weights of the caller: 1 beyond their end, 0 for factors that are left out.
+    pub(crate) fn weigh(&mut self, weights: &[f64]) {
+        let weights = weights.iter().copied().chain(std::iter::repeat(1.0));
+        for (given, weight) in self.given.iter_mut().zip(weights) {
+            *given = if weight.is_finite() && weight > 0.0 { weight } else { 0.0 };
+        }
+        for &index in &self.information.left_out {
+            self.given[index] = 0.0;
+            self.weights[index] = 0.0;
+            self.factor_chi2[index] = 0.0;
         }
     }
 
