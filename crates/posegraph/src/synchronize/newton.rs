@@ -40,7 +40,7 @@ const LEAST: f64 = 1e-12;
 const SHARES: [f64; 6] = [0.0, 0.5, 0.9, 0.99, 0.999, 1.0];
 
 /// Where a step promises less than this share of the cost, the Hessian is no longer cut short.
-const NEAR: f64 = 1e-3;
+const NEAR: f64 = 1e-4;
 
 /// Moves `x` to a stationary point of the cost among points of its rank.
 ///

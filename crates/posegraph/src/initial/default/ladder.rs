@@ -105,7 +105,13 @@ pub fn default_start_with<P: Rigid<D>, const D: usize>(
         return start;
     }
     let mut better: Option<Better<P>> = None;
-    let effort = SynchronizeOptions { max_rank: P::DIM + 1, iterations: 40, ..Default::default() };
+    // Which valley it is needs no more digits, and a graph without a tight relaxation no more ranks.
+    let effort = SynchronizeOptions {
+        max_rank: P::DIM + 1,
+        iterations: 40,
+        relative_decrease: 1e-10,
+        relative_gap: 1e-5,
+    };
     let certificate = certify(graph, &start.solution.poses, &effort);
     start.verdict = Some(certificate.verdict);
     let same_valley = certificate.verdict == Verdict::GloballyOptimal && certificate.rank == P::DIM;
