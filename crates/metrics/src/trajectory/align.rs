@@ -45,7 +45,7 @@ impl Similarity {
 /// Where all poses lie in the plane z = 0 the motion stays in that plane. For poses on a line the
 /// turn around it is arbitrary, but always the same one. Without poses nothing moves.
 pub fn align(reference: &[Se3], estimate: &[Se3], how: Alignment) -> Similarity {
-    let pairs: Vec<(Vector3<f64>, Vector3<f64>)> =
+    let pairs: Vec<Pair> =
         reference.iter().zip(estimate).map(|(r, e)| (r.translation, e.translation)).collect();
     let (Some(first), Some(start)) = (reference.first(), estimate.first()) else {
         return Similarity::identity();
@@ -61,12 +61,15 @@ pub fn align(reference: &[Se3], estimate: &[Se3], how: Alignment) -> Similarity 
     }
 }
 
-fn umeyama(pairs: &[(Vector3<f64>, Vector3<f64>)], scaled: bool) -> Similarity {
+/// Where a pose is in the reference and in the estimate.
+type Pair = (Vector3<f64>, Vector3<f64>);
+
+fn umeyama(pairs: &[Pair], scaled: bool) -> Similarity {
     let count = pairs.len() as f64;
-    let mean = |of: fn(&(Vector3<f64>, Vector3<f64>)) -> Vector3<f64>| {
-        pairs.iter().map(of).sum::<Vector3<f64>>() / count
-    };
-    let (to, from) = (mean(|pair| pair.0), mean(|pair| pair.1));
+    let sum = pairs.iter().fold((Vector3::zeros(), Vector3::zeros()), |(to, from), pair| {
+        (to + pair.0, from + pair.1)
+    });
+    let (to, from) = (sum.0 / count, sum.1 / count);
     let mut covariance = Matrix3::zeros();
     let mut spread = 0.0;
     for (reference, estimate) in pairs {
