@@ -8,7 +8,7 @@ use posegraph::{Factor, FactorGraph, Manifold};
 /// A chain with a closure at every other vertex; no two numbers alike.
 fn graph<P: Manifold<D>, const D: usize>(count: usize, pose: fn(f64) -> P) -> FactorGraph<P, D> {
     let ends = (1..count).flat_map(|to| {
-        let back = (to % 2 == 0).then(|| (to / 3, to));
+        let back = (to % 2 == 0).then_some((to / 3, to));
         std::iter::once((to - 1, to)).chain(back)
     });
     let factors = ends.map(|(from, to)| {
