@@ -89,3 +89,29 @@ fn scattered(index: usize) -> f64 {
     z = (z ^ (z >> 27)).wrapping_mul(0x94D0_49BB_1331_11EB);
     ((z ^ (z >> 31)) >> 11) as f64 / (1u64 << 52) as f64 - 1.0
 }
+
+#[cfg(test)]
+mod tests {
+    use pose::nalgebra::{DMatrix, DVector, SymmetricEigen};
+
+    use super::{largest_eigenpair, scattered};
+
+    #[test]
+    fn the_largest_eigenvalue_of_the_kept_rows_is_found() {
+        let rows = 30;
+        let half = DMatrix::from_fn(rows, rows, |a, b| scattered(a * rows + b));
+        let matrix = &half + half.transpose();
+        let kept = |row: usize| row % 3 != 2;
+        let found = largest_eigenpair(rows, kept, |v| {
+            let product = &matrix * DVector::from_column_slice(v);
+            v.copy_from_slice(product.as_slice());
+        });
+        let indices: Vec<usize> = (0..rows).filter(|&row| kept(row)).collect();
+        let part =
+            DMatrix::from_fn(indices.len(), indices.len(), |a, b| matrix[(indices[a], indices[b])]);
+        let dense = SymmetricEigen::new(part).eigenvalues.max();
+        assert!((found.value - dense).abs() <= found.residual + 1e-9 * dense, "{found:?}");
+        assert!(found.residual <= 1e-6 * dense);
+        assert!((0..rows).all(|row| kept(row) || found.vector[row] == 0.0));
+    }
+}

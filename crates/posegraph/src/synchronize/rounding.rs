@@ -114,3 +114,25 @@ fn determinant(d: usize, c: &Columns) -> f64 {
         Matrix3::from_fn(|row, column| c[column][row]).determinant()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::nearest_rotation;
+
+    #[test]
+    fn reflections_go_to_the_nearest_rotation() {
+        // Of the axes of a reflection the one that matters least is turned round.
+        let mirrored = [[3.0, 0.0, 0.0], [0.0, -0.5, 0.0], [0.0, 0.0, 2.0], [7.0, 8.0, 9.0]];
+        let found = nearest_rotation(3, &mirrored);
+        let expected = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0], [7.0, 8.0, 9.0]];
+        for (found, expected) in found.iter().flatten().zip(expected.iter().flatten()) {
+            assert!((found - expected).abs() < 1e-12);
+        }
+        let plane = [[2.0, 0.0, 0.0], [0.0, -1.0, 0.0], [4.0, 5.0, 0.0], [0.0; 3]];
+        assert_eq!(nearest_rotation(2, &plane)[0], [1.0, 0.0, 0.0]);
+        let nothing = nearest_rotation(3, &[[0.0; 3]; 4]);
+        let (a, b) = (nothing[0], nothing[1]);
+        assert!((a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>()).abs() < 1e-12);
+        assert!((a.iter().map(|a| a * a).sum::<f64>() - 1.0).abs() < 1e-12);
+    }
+}

@@ -249,3 +249,56 @@ fn analyse(size: usize, above: &[Vec<usize>]) -> SymbolicSupernodalCholesky<usiz
     )
     .expect("the factor fits into memory")
 }
+
+#[cfg(test)]
+mod tests {
+    use pose::nalgebra::{DMatrix, DVector};
+
+    use super::{BlockCholesky, Part, Pattern};
+
+    #[test]
+    fn solutions_are_those_of_the_dense_matrix() {
+        let joined = [(0, 3), (1, 3), (2, 0), (4, 1), (3, 0), (5, 2), (4, 5)];
+        let pattern = Pattern::new(6, joined.into_iter());
+        for size in [1, 3, 6] {
+            let n = 6 * size;
+            let mut system = BlockCholesky::new(&pattern, size);
+            let mut dense = DMatrix::<f64>::zeros(n, n);
+            let value = |k: usize| ((k * 37 + 11) % 19) as f64 / 19.0 - 0.5;
+            for vertex in 0..6 {
+                for row in 0..size {
+                    for column in 0..size {
+                        let far = if row == column { 10.0 * size as f64 } else { 0.0 };
+                        let entry = far + value(vertex + row.max(column) * 5 + row.min(column));
+                        system.add(Part::Diagonal(vertex), row, column, entry);
+                        dense[(vertex * size + row, vertex * size + column)] += entry;
+                    }
+                }
+            }
+            for (pair, &(low, high)) in pattern.pairs.iter().enumerate() {
+                for row in 0..size {
+                    for column in 0..size {
+                        let entry = value(pair * 7 + row * 3 + column);
+                        system.add(Part::Below(pair), row, column, entry);
+                        let (a, b) = (high as usize * size + row, low as usize * size + column);
+                        dense[(a, b)] += entry;
+                        dense[(b, a)] += entry;
+                    }
+                }
+            }
+            assert!(system.factorize());
+            let mut columns: Vec<f64> = (0..5 * n).map(value).collect();
+            let right = columns.clone();
+            system.solve(&mut columns);
+            for (x, right) in columns.chunks(n).zip(right.chunks(n)) {
+                let gap: DVector<f64> =
+                    &dense * DVector::from_column_slice(x) - DVector::from_column_slice(right);
+                assert!(gap.amax() < 1e-10, "{size} rows: {}", gap.amax());
+            }
+            for vertex in 0..6 {
+                system.add(Part::Diagonal(vertex), 0, 0, -100.0 * size as f64);
+            }
+            assert!(!system.factorize());
+        }
+    }
+}

@@ -163,3 +163,35 @@ fn complement(span: &DMatrix<f64>) -> Vec<Vec<f64>> {
     }
     found
 }
+
+#[cfg(test)]
+mod tests {
+    use super::Tangent;
+    use crate::synchronize::stiefel::{orthonormalise, retract};
+
+    #[test]
+    fn the_basis_is_orthonormal_and_stays_on_the_manifold_to_first_order() {
+        for rank in [3, 4, 5, 7] {
+            let rows = 3 * 4;
+            let mut x: Vec<f64> =
+                (0..rows * rank).map(|k| ((k * 29 + 7) % 23) as f64 - 11.0).collect();
+            orthonormalise::<4>(rows, &mut x);
+            let tangent = Tangent::<4>::new(rows, &x);
+            let size = rows / 4 * Tangent::<4>::size(rank);
+            for k in 0..size {
+                let mut unit = vec![0.0; size];
+                unit[k] = 1.0;
+                let vector = tangent.vector(&unit);
+                let back = tangent.coordinates(&vector);
+                for (j, entry) in back.iter().enumerate() {
+                    assert!((entry - unit[j]).abs() < 1e-12, "rank {rank}: {k} {j}");
+                }
+                let small: Vec<f64> = vector.iter().map(|v| 1e-5 * v).collect();
+                let moved = retract::<4>(rows, &x, &small);
+                for (index, y) in moved.iter().enumerate() {
+                    assert!((y - x[index] - small[index]).abs() < 1e-9);
+                }
+            }
+        }
+    }
+}

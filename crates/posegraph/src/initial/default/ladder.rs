@@ -114,14 +114,17 @@ pub fn default_start_with<P: Rigid<D>, const D: usize>(
     };
     let certificate = certify(graph, &start.solution.poses, &effort);
     start.verdict = Some(certificate.verdict);
-    let same_valley = certificate.verdict == Verdict::GloballyOptimal && certificate.rank == P::DIM;
-    if same_valley && start.solution.report.termination.is_converged() {
+    let certified = certificate.verdict == Verdict::GloballyOptimal;
+    let near = turned_apart(&start.solution.poses, &certificate.poses) < SAME_VALLEY_RAD;
+    if certified && near && start.solution.report.termination.is_converged() {
         return start;
     }
     if certificate.verdict != Verdict::NotApplicable {
         try_from(graph, Origin::Synchronized, certificate.poses, options, &mut start, &mut better);
     }
-    if certificate.verdict != Verdict::GloballyOptimal {
+    let lowest = better.as_ref().map_or(&start.solution, |better| &better.solution);
+    // In the plane the other starts cost next to nothing; in space they take long to lead astray.
+    if !certified || (P::DIM == 2 && judge(graph, lowest).doubt.is_some()) {
         try_from(graph, Origin::Odometry, odometry(graph), options, &mut start, &mut better);
         let tree = spanning_tree(graph);
         try_from(graph, Origin::SpanningTree, tree, options, &mut start, &mut better);
@@ -140,6 +143,15 @@ pub fn default_start_with<P: Rigid<D>, const D: usize>(
         start.origin = origin;
     }
     start
+}
+
+/// Poses whose rotations are nowhere farther apart lie in the same valley: a path from one to the
+/// other never passes half a turn, where valleys part, and noise has a margin of eight.
+const SAME_VALLEY_RAD: f64 = std::f64::consts::FRAC_PI_8;
+
+/// The largest angle between rotations of the same vertex.
+fn turned_apart<P: Rigid<D>, const D: usize>(a: &[P], b: &[P]) -> f64 {
+    a.iter().zip(b).map(|(a, b)| P::turn_between(a, b).norm()).fold(0.0, f64::max)
 }
 
 /// A start that led lower than the first, and where it led.

@@ -15,10 +15,11 @@
 //!
 //!    No doubt: done.
 //! 3. On doubt, [`certify`](crate::certificate::certify) solves SE-Sync's problem from this solution. If
-//!    it descends to a **certified global optimum** without leaving rank `d`, the solution lies in the
-//!    valley of that optimum: done.
+//!    that ends in a **certified global optimum** and no rotation turned by more than an eighth of a
+//!    half-turn on the way, the solution lies in the valley of that optimum: done.
 //! 4. Else Gauss-Newton starts again from the poses that the staircase led to, and, unless those were
-//!    certified, from odometry and the spanning tree too. The lowest `χ²` wins.
+//!    certified (in the plane: and believed), from odometry and the spanning tree too. The lowest `χ²`
+//!    wins.
 //! 5. Where even the lowest did not converge, damped steps go on from it.
 //!
 //! `χ²` has no certificate: a start that passes is plausible, not proven. Nothing is looked up.
