@@ -162,7 +162,7 @@ const FILES: [&str; 4] = [
 ];
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(300))]
+    #![proptest_config(ProptestConfig::with_cases(200))]
 
     #[test]
     fn g2o_of_the_plane_reads_back_bit_for_bit(graph in graph::<Se2, 3>(pose2())) {
