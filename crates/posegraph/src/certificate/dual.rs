@@ -9,7 +9,7 @@ use crate::synchronize::sparse::{BlockCholesky, Part};
 pub(crate) struct Smallest {
     /// Whether `S_R + η I` was factorised: no eigenvalue is below `-η`.
     pub(crate) positive: bool,
-    /// The smallest eigenvalue; `-η` as its bound where `positive`.
+    /// The smallest eigenvalue; 0 where `positive`, since the poses themselves are in the null space.
     pub(crate) eigenvalue: f64,
     /// What it is known to.
     pub(crate) precision: f64,
@@ -74,7 +74,7 @@ impl<'a, const B: usize> DualMatrix<'a, B> {
         if self.factorize(eta) {
             return Smallest {
                 positive: true,
-                eigenvalue: -eta,
+                eigenvalue: 0.0,
                 precision: eta,
                 direction: Vec::new(),
             };

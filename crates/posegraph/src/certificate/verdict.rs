@@ -36,7 +36,8 @@ impl Verdict {
 pub struct Certificate<P> {
     /// Whether the poses are known to be a global optimum.
     pub verdict: Verdict,
-    /// The smallest eigenvalue of the certificate matrix.
+    /// The smallest eigenvalue of the certificate matrix (translations eliminated). It is never above 0,
+    /// since the poses themselves span a part of its null space; 0 where none is below `-precision`.
     pub smallest_eigenvalue: f64,
     /// What it is known to.
     pub precision: f64,

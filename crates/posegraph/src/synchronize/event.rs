@@ -26,7 +26,7 @@ pub enum SynchronizeEvent<'a> {
         rank: usize,
         /// Its cost.
         cost: f64,
-        /// Its smallest eigenvalue, or a bound from below where it is not negative.
+        /// Its smallest eigenvalue; 0 where none is below minus the precision.
         smallest_eigenvalue: f64,
         /// What the eigenvalue is known to.
         precision: f64,

@@ -6,7 +6,8 @@ use crate::synchronize::rounding::nearest_rotation;
 use crate::synchronize::sparse::{BlockCholesky, Part, Pattern};
 use crate::synchronize::{Columns, Rigid};
 
-/// `map_from_body` of every vertex by chordal initialisation: see the [module](crate::initial::chordal).
+/// `map_from_body` of every vertex by chordal initialisation: see the
+/// [module](mod@crate::initial::chordal).
 pub fn chordal<P: Rigid<D>, const D: usize>(graph: &FactorGraph<P, D>) -> Vec<P> {
     let measurements = Measurements::new(graph);
     let pattern =
