@@ -70,14 +70,20 @@ impl<'a, const B: usize> DualMatrix<'a, B> {
     /// The smallest eigenvalue of `S_R`: one factorisation where none is below `-eta`; else a shift
     /// that makes it positive definite is found by factors of 10, and Lanczos on the inverse of the
     /// shifted matrix gives the eigenvalue with its vector.
-    pub(crate) fn smallest(&mut self, eta: f64) -> Smallest {
-        if self.factorize(eta) {
-            return Smallest {
-                positive: true,
-                eigenvalue: 0.0,
-                precision: eta,
-                direction: Vec::new(),
-            };
+    ///
+    /// Where rounding spoils the factorisation, `eta` grows by tens up to `most`, and the precision
+    /// tells so.
+    pub(crate) fn smallest(&mut self, eta: f64, most: f64) -> Smallest {
+        let mut eta = eta;
+        loop {
+            if self.factorize(eta) {
+                let (precision, direction) = (eta, Vec::new());
+                return Smallest { positive: true, eigenvalue: 0.0, precision, direction };
+            }
+            if eta * 10.0 > most {
+                break;
+            }
+            eta *= 10.0;
         }
         let (largest, _) = self.problem.largest_diagonal();
         let mut shift = eta.max(f64::MIN_POSITIVE.sqrt());

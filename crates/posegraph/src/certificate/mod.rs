@@ -13,9 +13,11 @@
 //! 1. **Solve** from the start that is given, best the lowest `χ²` known ([`certify`]).
 //! 2. **Test** `S + η I_R` by one sparse Cholesky factorisation, `η` = the allowed relative gap
 //!    ([`relative_gap`](crate::synchronize::SynchronizeOptions::relative_gap)) of `F`, shared out over
-//!    the `d n` columns; at least `1e-12` of the largest diagonal entry, below which the factorisation
-//!    itself is not exact. Success is the positive case, and no eigenvector is ever computed for it:
-//!    `S Xᵀ = 0` shows that the smallest eigenvalue is at most 0, the factor that it is above `-η`.
+//!    the `d n` columns; at least `1e-15` of the largest diagonal entry, growing by tens to `1e-12` of
+//!    it where rounding spoils the factorisation. A bound on the gap that comes out wider than a
+//!    hundredth of the cost is no certificate. Success is the positive case, and no eigenvector is ever
+//!    computed for it: `S Xᵀ = 0` shows that the smallest eigenvalue is at most 0, the factor that it
+//!    is above `-η`.
 //! 3. **On failure** the shift is raised by tens until the factorisation succeeds, and Lanczos on the
 //!    inverse of the shifted matrix gives the smallest eigenvalue with its vector. The shift is within
 //!    a factor of ten of the eigenvalue, so that some dozen steps suffice.

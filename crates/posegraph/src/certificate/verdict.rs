@@ -129,14 +129,27 @@ fn certify_blocks<P: Rigid<D>, const D: usize, const B: usize>(
         });
     }
     align(&mut poses, &reference, |v| start[v]);
-    conclude(climbed, poses)
+    conclude(climbed, poses, problem.scale)
 }
 
-fn conclude<P>(climbed: Climbed, poses: Vec<P>) -> Certificate<P> {
+/// A bound on the gap that is wider than this share of the cost proves nothing worth telling.
+const WIDEST_GAP: f64 = 1e-2;
+
+/// So small a share of the terms that the cost is the difference of is rounding, where the cost is 0.
+const ROUNDING: f64 = 1e-9;
+
+fn conclude<P>(climbed: Climbed, poses: Vec<P>, scale: f64) -> Certificate<P> {
     let Climbed { cost, smallest, lower_bound, rank, converged, .. } = climbed;
     let gap = lower_bound.map_or(f64::INFINITY, |bound| (cost - bound).max(0.0));
-    let verdict = if smallest.positive { Verdict::GloballyOptimal } else { Verdict::NotCertified };
-    let reason = if smallest.positive {
+    let tells = gap <= (WIDEST_GAP * cost).max(ROUNDING * scale);
+    let verdict =
+        if smallest.positive && tells { Verdict::GloballyOptimal } else { Verdict::NotCertified };
+    let reason = if smallest.positive && !tells {
+        format!(
+            "weights so large that eigenvalues are known to {:.3e} only leave a gap of {gap:.3e}",
+            smallest.precision
+        )
+    } else if smallest.positive {
         format!(
             "the certificate matrix plus {:.3e} I has a Cholesky factor, so no poses cost less than {:.9e}",
             smallest.precision,

@@ -47,11 +47,16 @@ pub(crate) struct Climbed {
 /// `η`: eigenvalues of the certificate matrix above `-η` count as not negative.
 ///
 /// The cost exceeds the optimum by at most `η d n` then, so `η` is the allowed gap shared out over
-/// the `d n` columns; never less than what rounding leaves of the largest entry.
-pub(crate) fn threshold<const B: usize>(problem: &Problem<B>, cost: f64, relative_gap: f64) -> f64 {
+/// the `d n` columns; never less than what rounding leaves of the largest entry. The second number is
+/// what it may grow to where the factorisation loses more digits than that.
+pub(crate) fn threshold<const B: usize>(
+    problem: &Problem<B>,
+    cost: f64,
+    relative_gap: f64,
+) -> (f64, f64) {
     let columns = (problem.rows() / B * (B - 1)).max(1) as f64;
     let (largest, _) = problem.largest_diagonal();
-    (relative_gap * cost / columns).max(1e-12 * largest)
+    ((relative_gap * cost / columns).max(1e-15 * largest), 1e-12 * largest)
 }
 
 /// Descends from `x` at rank `d`, tests the certificate, and climbs while it fails.
@@ -131,8 +136,8 @@ fn test<const B: usize>(
 ) -> (Smallest, f64) {
     let dual_cost =
         found.multipliers.iter().map(|block| (0..B - 1).map(|k| block[k][k]).sum::<f64>()).sum();
-    let eta = threshold(problem, found.cost, options.relative_gap);
-    let smallest = DualMatrix::new(problem, &found.multipliers).smallest(eta);
+    let (eta, most) = threshold(problem, found.cost, options.relative_gap);
+    let smallest = DualMatrix::new(problem, &found.multipliers).smallest(eta, most);
     probe.emit(SynchronizeEvent::Tested {
         rank,
         cost: found.cost,
