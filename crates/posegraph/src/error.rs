@@ -48,4 +48,36 @@ pub enum PoseGraphError {
         /// The edge asked for.
         edge: EdgeId,
     },
+    /// A factor leads to a vertex that is not there, or from a vertex to itself.
+    #[error("a factor from {from} to {to} does not join two of {len} vertices")]
+    FactorEnds {
+        /// Index of the vertex it starts from.
+        from: usize,
+        /// Index of the vertex it leads to.
+        to: usize,
+        /// Number of vertices.
+        len: usize,
+    },
+    /// A factor or pose has a part that is not a number.
+    #[error("the measurement from {from} to {to} is not finite")]
+    FactorNotFinite {
+        /// Index of the vertex it starts from.
+        from: usize,
+        /// Index of the vertex it leads to.
+        to: usize,
+    },
+    /// There is no such factor, or it was withdrawn before.
+    #[error("factor {factor} is not among the {len} that were added, or is withdrawn already")]
+    UnknownFactor {
+        /// Index of the factor asked for.
+        factor: usize,
+        /// Number of factors that were ever added.
+        len: usize,
+    },
+    /// The factors leave poses undetermined, so that these have no covariance.
+    #[error("{directions} directions of the poses are not determined by any factor")]
+    Undetermined {
+        /// Number of directions without information.
+        directions: usize,
+    },
 }

@@ -1,8 +1,10 @@
 #![doc = include_str!("../README.md")]
 
 pub mod certificate;
+mod cliques;
 mod error;
 pub mod factors;
+pub mod incremental;
 pub mod initial;
 mod linear;
 mod placement;
@@ -16,6 +18,7 @@ pub use factors::{
     ErrorKind, Factor, FactorGraph, FactorGraph2, FactorGraph3, InformationPolicy, Linearized,
     Manifold,
 };
+pub use incremental::{Incremental, IncrementalOptions, Update};
 pub use initial::{Start, default_start, default_start_with};
 pub use placement::{
     Edge, EdgeKind, Link, Placed, Placement, PoseGraph, Scope, ScopeScratch, Skeleton, Via,

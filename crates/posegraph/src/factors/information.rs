@@ -72,6 +72,17 @@ pub(crate) fn admissible<P: Manifold<D>, const D: usize>(
     (factors, policy)
 }
 
+/// The information matrix as the optimiser uses it, see [`InformationPolicy`]; all entries finite.
+pub(crate) fn admissible_information<const D: usize>(
+    information: &SMatrix<f64, D, D>,
+) -> SMatrix<f64, D, D> {
+    if is_symmetric(information) && has_cholesky(information) {
+        return *information;
+    }
+    let half = information.transpose() * 0.5 + information * 0.5;
+    nearest_semidefinite(&half).0.unwrap_or(half)
+}
+
 fn is_symmetric<const D: usize>(matrix: &SMatrix<f64, D, D>) -> bool {
     (0..D).all(|row| (0..row).all(|column| matrix[(row, column)] == matrix[(column, row)]))
 }

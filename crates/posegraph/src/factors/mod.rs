@@ -15,6 +15,6 @@ pub use curvature::Curvature;
 pub use error_kind::ErrorKind;
 pub use graph::{Factor, FactorGraph, FactorGraph2, FactorGraph3};
 pub use information::InformationPolicy;
-pub(crate) use information::admissible;
+pub(crate) use information::{admissible, admissible_information};
 pub use manifold::{Linearized, Manifold};
 pub use normal::NormalBlocks;

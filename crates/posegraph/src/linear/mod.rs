@@ -19,4 +19,5 @@ mod ordering;
 mod pattern;
 
 pub(crate) use cholesky::{BlockCholesky, NotPositiveDefinite};
+pub(crate) use ordering::minimum_degree;
 pub(crate) use pattern::{BlockPattern, Slot};

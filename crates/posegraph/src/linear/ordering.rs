@@ -9,7 +9,7 @@ use faer::sparse::linalg::amd;
 /// The graph holds the strict upper triangle by columns: `rows[starts[j]..starts[j + 1]]` are the
 /// blocks below `j` that meet block `j`, each once. The order is a postorder of the elimination
 /// tree.
-pub(super) fn minimum_degree(starts: &[usize], rows: &[usize]) -> Vec<usize> {
+pub(crate) fn minimum_degree(starts: &[usize], rows: &[usize]) -> Vec<usize> {
     let count = starts.len() - 1;
     let mut order = vec![0; count];
     let mut inverse = vec![0; count];

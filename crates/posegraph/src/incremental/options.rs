@@ -1,0 +1,35 @@
+//! What an incremental optimisation is asked to do, and what a step of it did.
+
+use crate::ErrorKind;
+
+/// Options of an incremental optimisation.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct IncrementalOptions {
+    /// Which error is minimised.
+    pub error: ErrorKind,
+    /// A pose is linearised anew where an entry of its step is longer than this, metres or radians.
+    pub relinearise: f64,
+    /// Changes of steps of at most this are not passed on, metres or radians.
+    pub propagate: f64,
+    /// Gauss-Newton iterations per added vertex, at most; at least one is done.
+    pub iterations: usize,
+}
+
+impl Default for IncrementalOptions {
+    fn default() -> Self {
+        Self { error: ErrorKind::G2o, relinearise: 0.01, propagate: 1e-5, iterations: 1 }
+    }
+}
+
+/// What adding or withdrawing did.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Update {
+    /// Poses that were linearised anew, over all iterations.
+    pub relinearised: usize,
+    /// Block columns of the factor that were computed anew, over all iterations.
+    pub refactored: usize,
+    /// Steps that changed, over all iterations.
+    pub solved: usize,
+    /// Gauss-Newton iterations.
+    pub iterations: usize,
+}
