@@ -7,4 +7,4 @@ pub mod relative;
 pub mod volume;
 
 pub use events::MapProbe;
-pub use map::{Candidate, Clearance, ExplorationMap, Frontier, Route, Standing};
+pub use map::{Candidate, Clearance, ExplorationMap, Frontier, Route, Standing, Vantage};

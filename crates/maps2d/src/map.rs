@@ -89,6 +89,16 @@ pub enum Route {
     Drive(Vec<Point2>),
 }
 
+/// A place from which a goal can be reached that cannot be from where it was seen.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Vantage {
+    /// The way there by teach and repeat: the vertices in driving order, each with the length of the
+    /// link that leads to it, metres. Never empty.
+    pub way: Vec<(VertexId, f64)>,
+    /// The goal, in the frame of the last vertex of the way.
+    pub goal_in_vertex: Point2,
+}
+
 /// A map of the plane that exploration runs on: fed with scans and graph events, asked for frontiers.
 ///
 /// Points and goals are in the body frame of [`Standing`], so that no answer needs a global frame.
@@ -137,6 +147,16 @@ pub trait ExplorationMap {
         goal_in_body: &Point2,
         clearance_m: f64,
     ) -> Option<Point2>;
+
+    /// The nearest place along the graph, other than the one that the robot stands on, from which the
+    /// straight way to `goal_in_body` keeps `clearance_m`; `None` where the map knows none, or goes
+    /// by ways that need none.
+    fn vantage(
+        &mut self,
+        standing: &Standing,
+        goal_in_body: &Point2,
+        clearance_m: f64,
+    ) -> Option<Vantage>;
 
     /// Frontier within `radius_m` of `goal_in_body` does not count from now on.
     ///

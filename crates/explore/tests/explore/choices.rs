@@ -80,8 +80,7 @@ fn a_narrow_way_is_driven_in_shorter_steps() {
 
 /// A frontier round a corner: the straight way is blocked, a point before the frontier is not.
 fn round_a_corner() -> Sketch {
-    let spot =
-        Spot { at: Point2::new(3.0, 2.0), normal: Vector2::new(0.0, 1.0), closes_within_m: 1.2 };
+    let spot = Spot { normal: Vector2::new(0.0, 1.0), closes_within_m: 1.2, ..Spot::new(3.0, 2.0) };
     let mut map = Sketch::new(vec![spot]);
     map.clearance = |from, to| if from.x < 2.5 && heading_of(from, to) > 0.5 { 0.0 } else { 1.0 };
     map
@@ -142,9 +141,10 @@ fn a_frontier_that_looking_does_not_close_is_given_up_on_arrival() {
 
 #[test]
 fn a_frontier_that_stays_ahead_is_not_chased_for_ever() {
-    // Farther than the moves that a goal is worth.
-    let played = play(Sketch::new(vec![Spot::new(40.0, 0.0)]), RapidParams::default());
+    let receding = Spot { recedes_m: 0.45, closes_within_m: 0.0, ..Spot::new(0.4, 0.0) };
+    let played = play(Sketch::new(vec![receding]), RapidParams::default());
     assert_eq!(played.heard.given_up(), [GiveUp::NothingNew]);
-    assert_eq!(played.robot.forwards().len(), 13);
+    // Twice the distance in the shortest steps, and four more.
+    assert_eq!(played.robot.forwards().len(), 4 + 7);
     assert_eq!(played.ending, Some(Ending::Complete));
 }

@@ -4,7 +4,7 @@ use std::collections::VecDeque;
 
 use explore::{Ending, ExploreParams, Explorer, Policy, RapidParams};
 use geometry::{Point2, Vector2};
-use maps2d::{Candidate, Clearance, ExplorationMap, Frontier, MapProbe, Route, Standing};
+use maps2d::{Candidate, Clearance, ExplorationMap, Frontier, MapProbe, Route, Standing, Vantage};
 use pose::Se2;
 use posegraph::PoseGraph;
 use probe::{EdgeId, VertexId};
@@ -19,13 +19,15 @@ pub struct Spot {
     pub normal: Vector2,
     /// A scan that looks at it from nearer than this closes it, metres.
     pub closes_within_m: f64,
+    /// With every scan it is farther along its normal by so much, metres.
+    pub recedes_m: f64,
 }
 
 impl Spot {
     /// One that faces away from the origin and closes when it is as good as reached.
     pub fn new(x: f64, y: f64) -> Self {
         let at = Point2::new(x, y);
-        Self { at, normal: at.coords.normalize(), closes_within_m: 0.1 }
+        Self { at, normal: at.coords.normalize(), closes_within_m: 0.1, recedes_m: 0.0 }
     }
 
     /// One at the origin's distance and bearing.
@@ -94,6 +96,9 @@ impl ExplorationMap for Sketch {
             let ahead = distance_m < 0.1 || in_body.y.atan2(in_body.x).abs() < 0.2;
             !(ahead && distance_m < spot.closes_within_m)
         });
+        for spot in &mut self.spots {
+            spot.at += spot.normal * spot.recedes_m;
+        }
     }
 
     fn frontier(&self) -> Frontier {
@@ -132,6 +137,11 @@ impl ExplorationMap for Sketch {
 
     fn frontier_at(&self, _vertex: VertexId) -> f64 {
         self.spots.len() as f64
+    }
+
+    /// Ways over cells lead round corners already.
+    fn vantage(&mut self, _: &Standing, _: &Point2, _: f64) -> Option<Vantage> {
+        None
     }
 
     fn detour(&self, standing: &Standing, _goal: &Point2, _clearance_m: f64) -> Option<Point2> {

@@ -10,7 +10,7 @@ use sensing::Scan;
 
 use super::{Cell, Cells, GridEvent};
 use crate::volume::{LocalVolume, Samples, VolumeParams, build};
-use crate::{Candidate, Clearance, ExplorationMap, Frontier, MapProbe, Route, Standing};
+use crate::{Candidate, Clearance, ExplorationMap, Frontier, MapProbe, Route, Standing, Vantage};
 
 /// Parameters of the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -160,6 +160,11 @@ impl ExplorationMap for GridMap {
             return Clearance::NONE;
         }
         self.view.motion_clearance(&standing.vertex_from_body.transform(to_in_body))
+    }
+
+    /// Ways over cells lead round corners already.
+    fn vantage(&mut self, _: &Standing, _: &Point2, _: f64) -> Option<Vantage> {
+        None
     }
 
     fn detour(

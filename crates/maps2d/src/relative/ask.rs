@@ -1,6 +1,7 @@
 //! What a policy asks: frontiers in view, clearance, the way to the next frontier.
 
 use geometry::{Point2, Vector2};
+use probe::VertexId;
 
 use super::{Chain, RelativeMap, VolumeState};
 use crate::{Candidate, Clearance, MapProbe, Route, Standing};
@@ -13,7 +14,7 @@ impl RelativeMap {
     pub(super) fn candidates(&self, standing: &Standing, out: &mut Vec<Candidate>) {
         out.clear();
         let Some(state) = self.volume(standing.vertex) else { return };
-        for (tag, chain) in state.counting_chains(self.params.sliver_m).enumerate() {
+        for (tag, chain) in state.counting_chains().enumerate() {
             for spoke in [true, false] {
                 let run = Run::of(state, chain, spoke);
                 // A short end of a chain is seen on the way to the rest of it.
@@ -47,7 +48,7 @@ impl RelativeMap {
             if !state.counts() || apart_m > reach_m + state.volume.radius_m() {
                 continue;
             }
-            for (tag, chain) in state.counting_chains(self.params.sliver_m).enumerate() {
+            for (tag, chain) in state.counting_chains().enumerate() {
                 for part in &chain.parts {
                     let edge = &state.volume.frontier[part.edge];
                     let middle = row.root_from_vertex.transform(&edge.at(part.span.middle()));
@@ -110,6 +111,25 @@ impl RelativeMap {
         self.consolidate(probe);
         if let Some(state) = self.volumes[standing.vertex].as_deref_mut() {
             state.given_up.pop();
+        }
+        self.silence(standing.vertex, probe);
+    }
+
+    /// A volume with frontier that cannot be reached from it closes none of others any more; what it
+    /// had closed is open again unless another volume accounts for it.
+    ///
+    /// Frontier of volumes nearer by, from which it might be reached, lies inside this one.
+    fn silence(&mut self, vertex: VertexId, probe: &mut dyn MapProbe) {
+        let Some(state) = self.volumes[vertex].as_deref_mut() else { return };
+        if std::mem::replace(&mut state.blocked, true) {
+            return;
+        }
+        for other in state.closed_in.clone() {
+            let lost = self.reopen_what_closed(other, vertex, probe);
+            self.restore_if_it_counts(other, probe);
+            if self.any_open(other, &lost) {
+                self.compare_with_scope(other, probe);
+            }
         }
     }
 }

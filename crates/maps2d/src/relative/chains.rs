@@ -23,11 +23,13 @@ pub struct Chain {
     pub parts: Vec<ChainPart>,
     /// Their length together, metres.
     pub length_m: f64,
+    /// Whether it counts as frontier: it is no sliver, or held with slivers of others.
+    pub counts: bool,
 }
 
 impl Chain {
     fn new(part: ChainPart) -> Self {
-        Self { length_m: part.length_m, parts: vec![part] }
+        Self { length_m: part.length_m, parts: vec![part], counts: false }
     }
 
     fn extend(&mut self, parts: Vec<ChainPart>) {

@@ -78,7 +78,7 @@ impl RelativeMap {
     /// Returns them, by edge.
     ///
     /// A ray between two old ones may show that the edge between them cut a corner.
-    fn reopen_what_closed(
+    pub(super) fn reopen_what_closed(
         &mut self,
         other: VertexId,
         by: VertexId,
@@ -105,7 +105,7 @@ impl RelativeMap {
     }
 
     /// Whether anything of these parts of frontier edges is open.
-    fn any_open(&self, vertex: VertexId, parts: &[(usize, Interval)]) -> bool {
+    pub(super) fn any_open(&self, vertex: VertexId, parts: &[(usize, Interval)]) -> bool {
         self.volume(vertex).is_some_and(|state| {
             parts.iter().any(|(edge, span)| {
                 state.ledgers[*edge].open().any(|open| open.overlap(span).is_some())
@@ -149,6 +149,8 @@ fn inherit(state: &mut VolumeState, before: VolumeState, sliver_m: f64) {
     }
     state.closed_others = before.closed_others;
     state.closed_in = before.closed_in;
+    state.blocked = before.blocked;
+    state.held = before.held;
     state.given_up = before.given_up;
     state.measure(sliver_m);
 }

@@ -7,7 +7,7 @@ use probe::{EdgeId, IdVec, VertexId};
 use sensing::Scan;
 
 use super::{ConsolidationEvent, PathBook, RelativeParams, VolumeState};
-use crate::{Candidate, Clearance, ExplorationMap, Frontier, MapProbe, Route, Standing};
+use crate::{Candidate, Clearance, ExplorationMap, Frontier, MapProbe, Route, Standing, Vantage};
 
 /// Local volumes on a pose graph, with consolidated frontiers (\[ISRR19\] 4).
 ///
@@ -149,10 +149,12 @@ impl ExplorationMap for RelativeMap {
 
     fn edges_added(&mut self, graph: &PoseGraph, edges: &[EdgeId], probe: &mut dyn MapProbe) {
         self.take_edges(graph, edges, probe);
+        self.hold_slivers(probe);
     }
 
     fn edge_withdrawn(&mut self, graph: &PoseGraph, edge: EdgeId, probe: &mut dyn MapProbe) {
         self.withdraw(graph, edge, probe);
+        self.hold_slivers(probe);
     }
 
     /// Relative placement does not look at global estimates: nothing changes.
@@ -160,6 +162,7 @@ impl ExplorationMap for RelativeMap {
 
     fn scanned(&mut self, standing: &Standing, scan: &Scan, probe: &mut dyn MapProbe) {
         self.insert(standing, scan, probe);
+        self.hold_slivers(probe);
         if probe::Probe::<ConsolidationEvent<'_>>::on(probe) {
             probe.emit(ConsolidationEvent::Settled { map: self, standing: standing.vertex });
         }
@@ -207,6 +210,15 @@ impl ExplorationMap for RelativeMap {
         self.volume(vertex).map_or(0.0, |state| state.open_m)
     }
 
+    fn vantage(
+        &mut self,
+        standing: &Standing,
+        goal_in_body: &Point2,
+        clearance_m: f64,
+    ) -> Option<Vantage> {
+        self.nearest_vantage(standing, goal_in_body, clearance_m)
+    }
+
     fn give_up(
         &mut self,
         standing: &Standing,
@@ -216,6 +228,7 @@ impl ExplorationMap for RelativeMap {
         probe: &mut dyn MapProbe,
     ) {
         self.give_up_near(standing, goal_in_body, radius_m, everywhere, probe);
+        self.hold_slivers(probe);
     }
 
     fn bytes(&self) -> usize {

@@ -10,13 +10,17 @@
 //! 4. Which pairs: a new volume, those with itself; a place edge, those whose shortest path it
 //!    changes (`incremental`).
 //! 5. A withdrawn place edge opens again exactly what relied on it (`withdraw`).
-//! 6. What is left is measured in chains; slivers do not count (`chains`).
+//! 6. What is left is measured in chains; slivers do not count (`chains`), unless they are parts of
+//!    one frontier that several volumes have cut up between them (`slivers`).
 //! 7. Volumes that add nothing are retired (`retire`).
 //! 8. The policy's questions: frontiers in view, clearance, the way to the next frontier (`ask`);
-//!    and a person's: why is this left, who removed that (`query`).
+//!    from another place (`vantage`); and a person's: why is this left, who removed that (`query`).
+//! 9. Frontier that cannot be reached from its vertex is given up there, and the volume closes
+//!    none of others any more (`ask`): what it sees has to be looked at from elsewhere.
 //!
 //! Geometry never changes; only ledgers do, and a part that is closed stays closed unless a place
-//! edge on the path that closed it is withdrawn.
+//! edge on the path that closed it is withdrawn, or the volume that closed it is changed by another
+//! scan, or falls silent.
 
 mod ask;
 mod book;
@@ -29,7 +33,9 @@ mod pair;
 mod params;
 mod query;
 mod retire;
+mod slivers;
 mod state;
+mod vantage;
 mod walls;
 mod withdraw;
 

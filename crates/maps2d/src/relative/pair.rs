@@ -19,6 +19,8 @@ pub(super) struct Work {
     clipped: Vec<Interval>,
     placements: Vec<Se2>,
     newly: Vec<Interval>,
+    /// Volumes with more slivers than before.
+    pub slivers_of: Vec<VertexId>,
     /// Volumes whose ledgers changed, each with a volume that closed something there.
     pub touched: Vec<(VertexId, VertexId)>,
 }
@@ -74,9 +76,12 @@ impl RelativeMap {
         let sliver_m = self.params.sliver_m;
         let Some(state) = self.volumes[vertex].as_deref_mut() else { return false };
         self.totals.remove(state);
-        let before_m = state.open_m;
+        let (before_m, slivers_m) = (state.open_m, state.sliver_m);
         state.measure(sliver_m);
         self.totals.add(state);
+        if state.sliver_m > slivers_m {
+            self.work.slivers_of.push(vertex);
+        }
         state.open_m < before_m
     }
 
@@ -101,7 +106,8 @@ impl RelativeMap {
         } else {
             self.volumes[against].as_ref()
         };
-        if let Some(other) = other {
+        let silent = |other: &VolumeState| other.blocked && cause == Cause::Inside && at != against;
+        if let Some(other) = other.filter(|other| !silent(other)) {
             let mut spans = std::mem::take(&mut self.work.spans);
             spans.clear();
             match cause {

@@ -86,16 +86,17 @@ impl RelativeMap {
                 })
                 .collect();
             for span in ledger.open() {
-                let chain_m = state
+                let least_m = self.params.sliver_m;
+                let chain = state
                     .chains
                     .iter()
-                    .find(|chain| chain.parts.iter().any(|p| p.edge == i && p.span == span))
-                    .map_or(0.0, |chain| chain.length_m);
-                let least_m = self.params.sliver_m;
-                let why = if chain_m < least_m {
-                    WhyLeft::Sliver { chain_m, least_m }
-                } else {
-                    self.who_would(&scope, edge, &span)
+                    .find(|chain| chain.parts.iter().any(|p| p.edge == i && p.span == span));
+                let why = match chain {
+                    Some(chain) if chain.counts => self.who_would(&scope, edge, &span),
+                    _ => {
+                        let chain_m = chain.map_or(0.0, |chain| chain.length_m);
+                        WhyLeft::Sliver { chain_m, least_m }
+                    }
                 };
                 of_edge.push(FrontierPiece { edge: *edge, span, fate: Fate::Left(why) });
             }

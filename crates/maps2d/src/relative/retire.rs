@@ -40,7 +40,7 @@ use super::{Cause, Closing, ConsolidationEvent, RelativeMap, VolumeState};
 use crate::MapProbe;
 
 /// Of the vertices in a scope of the full graph only so many are asked, the nearest.
-const MOST_ASKED: usize = 200;
+pub(super) const MOST_ASKED: usize = 200;
 
 impl RelativeMap {
     pub(super) fn retire_if_spent(&mut self, vertex: VertexId, probe: &mut dyn MapProbe) {
@@ -131,7 +131,9 @@ impl RelativeMap {
             let other_from_helper = placed.root_from_vertex;
             placements(&other_from_helper, placed.odometry_m, &self.params.certainty, &mut poses);
             spans.clear();
-            spans_inside(&without, &helper.volume, &poses, &mut clipped, &mut spans);
+            if !helper.blocked {
+                spans_inside(&without, &helper.volume, &poses, &mut clipped, &mut spans);
+            }
             let wall_m = self.params.wall_closing_m;
             spans_along_walls(&without, &helper.volume, &other_from_helper, wall_m, &mut spans);
             for &(edge, span) in &spans {

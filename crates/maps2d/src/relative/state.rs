@@ -1,13 +1,16 @@
 //! One volume with what has become of its frontier.
 
 use geometry::Point2;
-use geometry::planar::EdgeLedger;
+use geometry::planar::{EdgeLedger, point_segment_distance};
 
 use probe::VertexId;
 
 use super::chains::chains;
 use super::{Chain, Closing};
 use crate::volume::{LocalVolume, Samples};
+
+/// A sliver that is held counts until it is shorter than this share of the length of a sliver.
+const HELD_SHARE: f64 = 0.1;
 
 /// A volume of the map, its ledgers, and what they come to.
 #[derive(Clone, Debug)]
@@ -36,6 +39,11 @@ pub struct VolumeState {
     pub retired: bool,
     /// How many volumes came into its scope since it last closed frontier that counted.
     pub idle_scans: u32,
+    /// Whether it no longer accounts for frontier of others, because some of its own cannot be
+    /// reached from it: what it sees there has to be looked at from elsewhere.
+    pub blocked: bool,
+    /// Places where a sliver counts, because with slivers of other volumes it is none; anchor frame.
+    pub held: Vec<Point2>,
     /// Places that could not be reached, with the radius around them; anchor frame, metres.
     pub given_up: Vec<(Point2, f64)>,
 }
@@ -56,6 +64,8 @@ impl VolumeState {
             closed_in: Vec::new(),
             retired: false,
             idle_scans: 0,
+            blocked: false,
+            held: Vec::new(),
             given_up: Vec::new(),
         };
         state.measure(sliver_m);
@@ -84,8 +94,11 @@ impl VolumeState {
         self.open_disc = self.disc_around_open();
         self.open_m = 0.0;
         self.sliver_m = 0.0;
-        for chain in &self.chains {
-            if chain.length_m >= sliver_m {
+        for chain in &mut self.chains {
+            let held = || self.held.iter().any(|at| is_near(chain, &self.volume, at, sliver_m));
+            chain.counts =
+                chain.length_m >= sliver_m || (chain.length_m >= HELD_SHARE * sliver_m && held());
+            if chain.counts {
                 self.open_m += chain.length_m;
             } else {
                 self.sliver_m += chain.length_m;
@@ -123,8 +136,8 @@ impl VolumeState {
     }
 
     /// The chains that count.
-    pub fn counting_chains(&self, sliver_m: f64) -> impl Iterator<Item = &Chain> {
-        self.chains.iter().filter(move |chain| chain.length_m >= sliver_m)
+    pub fn counting_chains(&self) -> impl Iterator<Item = &Chain> {
+        self.chains.iter().filter(|chain| chain.counts)
     }
 
     /// Memory held on the heap, bytes.
@@ -141,4 +154,13 @@ impl VolumeState {
                 .map(|c| c.parts.len() * size_of::<super::ChainPart>())
                 .sum::<usize>()
     }
+}
+
+/// Whether a chain lies about where a sliver is held.
+fn is_near(chain: &Chain, volume: &LocalVolume, at: &Point2, sliver_m: f64) -> bool {
+    chain.parts.iter().any(|part| {
+        let edge = &volume.frontier[part.edge];
+        let (from, to) = (edge.at(part.span.from), edge.at(part.span.to));
+        point_segment_distance(at, &from, &to) <= 0.5 * sliver_m
+    })
 }

@@ -41,8 +41,7 @@ pub fn check_partition(map: &RelativeMap) -> Result<(), TestCaseError> {
                 }
             }
         }
-        let counting: f64 =
-            state.counting_chains(map.params().sliver_m).map(|chain| chain.length_m).sum();
+        let counting: f64 = state.counting_chains().map(|chain| chain.length_m).sum();
         prop_assert!((counting - state.open_m).abs() < 1e-9);
         prop_assert!((state.open_m + state.sliver_m - chained_m).abs() < 1e-9);
         open_m += counting;

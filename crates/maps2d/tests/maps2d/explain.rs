@@ -78,14 +78,10 @@ fn check_why(
         WhyLeft::Sliver { chain_m, least_m } => {
             prop_assert_eq!(least_m, map.params().sliver_m);
             prop_assert!(chain_m < least_m);
-            let counts = map
-                .volume(vertex)
-                .unwrap()
-                .counting_chains(least_m)
-                .flat_map(|chain| &chain.parts)
-                .any(|part| {
-                    part.span == piece.span && piece.edge == edge_of(map, vertex, part.edge)
-                });
+            let counts =
+                map.volume(vertex).unwrap().counting_chains().flat_map(|chain| &chain.parts).any(
+                    |part| part.span == piece.span && piece.edge == edge_of(map, vertex, part.edge),
+                );
             prop_assert!(!counts);
         }
         WhyLeft::OutOfScope { by, distance_m: told_m, radius_m } => {

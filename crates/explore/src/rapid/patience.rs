@@ -1,0 +1,45 @@
+//! When to stop going somewhere: the rule that ends every run.
+
+use std::collections::VecDeque;
+
+use crate::{Explorer, RapidParams};
+
+/// What a map has left, as (length in bits, places), is compared with this many of its values before.
+const REMEMBERED: usize = 8;
+
+/// How long the robot goes on while nothing changes.
+///
+/// A map of cells may send the robot to and fro between two places for ever, if what it sees at
+/// each makes the other look better.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Patience {
+    /// What was left when the robot was sent before, latest last.
+    left: VecDeque<(u64, usize)>,
+    /// Actions that may still be taken while what is left is one of those.
+    actions_left: u32,
+}
+
+impl Explorer {
+    /// Whether the robot should go on to a goal at the end of a way of this length: false when it
+    /// acted for longer than such a way takes, and all the while nothing new was left or gone.
+    pub(super) fn is_worth_going(&mut self, length_m: f64, params: &RapidParams) -> bool {
+        let frontier = self.maps[0].frontier();
+        let left = (frontier.open_m.to_bits(), frontier.places);
+        let patience = &mut self.rapid.patience;
+        if !patience.left.contains(&left) {
+            if patience.left.len() == REMEMBERED {
+                patience.left.pop_front();
+            }
+            patience.left.push_back(left);
+            // For every step of the way a turn or two, and as much again for going round.
+            let actions = 60.0 + 6.0 * length_m / params.step_m;
+            patience.actions_left = actions.min(1e6) as u32;
+        }
+        if patience.actions_left == 0 {
+            *patience = Patience::default();
+            return false;
+        }
+        patience.actions_left -= 1;
+        true
+    }
+}

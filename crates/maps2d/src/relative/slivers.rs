@@ -1,0 +1,188 @@
+//! Slivers that are more than slivers together.
+//!
+//! Where several volumes look into an opening from nearly the same place, their frontiers there cross
+//! each other at small angles, and each closes a part of the others'. What remains is the boundary of
+//! their union, all open, but cut into slivers that belong to one volume each. Hence slivers are
+//! judged together with the open parts that go on where they end, whoever they belong to: if none
+//! of those counts, and all of them together reach as far as a sliver may be long, the longest is
+//! held, and counts until it is closed.
+
+use geometry::Point2;
+use geometry::planar::{Interval, segment_segment_distance};
+use posegraph::{Placed, Scope};
+use probe::{PathId, VertexId};
+
+use super::pair::{placements, spans_inside};
+use super::retire::MOST_ASKED;
+use super::walls::spans_along_walls;
+use super::{Cause, Chain, Closing, RelativeMap, VolumeState};
+use crate::MapProbe;
+
+/// Open parts of two volumes go on where the other ends if they come this near to each other, as a
+/// share of the length of a sliver: placement moves them apart.
+const JOIN_SHARE: f64 = 0.3;
+
+/// An open part near a sliver.
+struct Piece {
+    row: usize,
+    from: Point2,
+    to: Point2,
+    /// Length of its chain, metres.
+    chain_m: f64,
+    counts: bool,
+}
+
+impl RelativeMap {
+    /// Looks at the volumes that have more slivers than before, and holds what has to be.
+    ///
+    /// Cost: a scope and the open parts around for each of them.
+    pub(super) fn hold_slivers(&mut self, probe: &mut dyn MapProbe) {
+        let mut vertices = std::mem::take(&mut self.work.slivers_of);
+        vertices.sort_unstable();
+        vertices.dedup();
+        for &vertex in &vertices {
+            for chain in 0..self.volume(vertex).map_or(0, |state| state.chains.len()) {
+                self.hold_sliver(vertex, chain, probe);
+            }
+        }
+        // Measuring what is held has added to the list, but no slivers.
+        vertices.clear();
+        self.work.slivers_of = vertices;
+    }
+
+    fn hold_sliver(&mut self, vertex: VertexId, chain: usize, probe: &mut dyn MapProbe) {
+        let sliver_m = self.params.sliver_m;
+        let Some(state) = self.volume(vertex) else { return };
+        let Some(sliver) = state.chains.get(chain).filter(|chain| !chain.counts) else { return };
+        let seeds: Vec<(Point2, Point2)> = ends(state, sliver).collect();
+        let mut scope = Scope::default();
+        let radius_m = self.params.consolidation_radius_m;
+        self.scratch.place_nearest(&self.full, vertex, radius_m, MOST_ASKED, &mut scope);
+        let pieces = self.pieces_around(scope.placed(), &seeds);
+        let cluster = joined(&pieces, &seeds, JOIN_SHARE * sliver_m);
+        if cluster.iter().any(|piece| piece.counts) || extent_m(&cluster, &seeds) < sliver_m {
+            return;
+        }
+        let longest = cluster.iter().max_by(|a, b| {
+            a.chain_m
+                .total_cmp(&b.chain_m)
+                .then(b.row.cmp(&a.row))
+                .then(b.from.x.total_cmp(&a.from.x))
+        });
+        let Some(piece) = longest else { return };
+        let row = scope.placed()[piece.row];
+        let middle = row.root_from_vertex.inverse_transform(&middle_of(piece));
+        let Some(holder) = self.volumes[row.vertex].as_deref_mut() else { return };
+        holder.held.push(middle);
+        self.remeasure(row.vertex);
+        self.restore_if_it_counts(row.vertex, probe);
+    }
+
+    /// The open parts of all volumes of a scope that come nearer to a sliver than slivers are long,
+    /// in the frame of the root.
+    fn pieces_around(&self, rows: &[Placed], seeds: &[(Point2, Point2)]) -> Vec<Piece> {
+        let near_m = self.params.sliver_m;
+        let Some(centre) = seeds.first().map(|seed| seed.0) else { return Vec::new() };
+        let reach_m = seeds.iter().map(|seed| (seed.1 - centre).norm()).fold(0.0, f64::max);
+        let mut pieces = Vec::new();
+        for (i, row) in rows.iter().enumerate() {
+            let Some(known) = self.volume(row.vertex).filter(|state| state.has_open()) else {
+                continue;
+            };
+            let (disc, radius_m) = known.open_disc;
+            let apart_m = (row.root_from_vertex.transform(&disc) - centre).norm();
+            if apart_m > radius_m + reach_m + near_m {
+                continue;
+            }
+            let updated = known.retired.then(|| self.brought_up_to_date(known, row, rows));
+            let state = updated.as_ref().unwrap_or(known);
+            for chain in &state.chains {
+                for (from, to) in ends(state, chain) {
+                    let from = row.root_from_vertex.transform(&from);
+                    let to = row.root_from_vertex.transform(&to);
+                    let near = |seed: &(Point2, Point2)| {
+                        segment_segment_distance(&from, &to, &seed.0, &seed.1) <= near_m
+                    };
+                    if seeds.iter().any(near) {
+                        let (chain_m, counts) = (chain.length_m, chain.counts);
+                        pieces.push(Piece { row: i, from, to, chain_m, counts });
+                    }
+                }
+            }
+        }
+        pieces
+    }
+}
+
+impl RelativeMap {
+    /// A retired volume as it would be had it been compared with all that came since.
+    fn brought_up_to_date(&self, state: &VolumeState, at: &Placed, rows: &[Placed]) -> VolumeState {
+        let mut state = state.clone();
+        let reason = Closing { cause: Cause::Wall, by: at.vertex, step: 0, path: PathId(0) };
+        let (mut poses, mut clipped) = (Vec::new(), Vec::new());
+        let mut spans: Vec<(usize, Interval)> = Vec::new();
+        let mut closed: Vec<Interval> = Vec::new();
+        for row in rows.iter().filter(|row| row.vertex != at.vertex) {
+            let Some(helper) = self.volume(row.vertex) else { continue };
+            let at_from_helper = at.root_from_vertex.inverse_mul(&row.root_from_vertex);
+            let odometry_m = at.odometry_m + row.odometry_m;
+            placements(&at_from_helper, odometry_m, &self.params.certainty, &mut poses);
+            spans.clear();
+            if !helper.blocked {
+                spans_inside(&state, &helper.volume, &poses, &mut clipped, &mut spans);
+            }
+            let wall_m = self.params.wall_closing_m;
+            spans_along_walls(&state, &helper.volume, &at_from_helper, wall_m, &mut spans);
+            for &(edge, span) in &spans {
+                closed.clear();
+                state.ledgers[edge].close(span, &reason, &mut closed);
+            }
+        }
+        state.measure(self.params.sliver_m);
+        state
+    }
+}
+
+/// The ends of the parts of a chain, in the frame of its volume.
+fn ends<'a>(
+    state: &'a VolumeState,
+    chain: &'a Chain,
+) -> impl Iterator<Item = (Point2, Point2)> + 'a {
+    chain.parts.iter().map(|part| {
+        let edge = &state.volume.frontier[part.edge];
+        (edge.at(part.span.from), edge.at(part.span.to))
+    })
+}
+
+/// The pieces that hang together with the seeds, one joining the next.
+fn joined<'a>(pieces: &'a [Piece], seeds: &[(Point2, Point2)], join_m: f64) -> Vec<&'a Piece> {
+    let mut open: Vec<(Point2, Point2)> = seeds.to_vec();
+    let mut left: Vec<&Piece> = pieces.iter().collect();
+    let mut cluster = Vec::new();
+    while let Some((a, b)) = open.pop() {
+        left.retain(|piece| {
+            let joins = segment_segment_distance(&piece.from, &piece.to, &a, &b) <= join_m;
+            if joins {
+                open.push((piece.from, piece.to));
+                cluster.push(*piece);
+            }
+            !joins
+        });
+    }
+    cluster
+}
+
+/// How far a cluster reaches: the diagonal of its bounds, metres.
+fn extent_m(cluster: &[&Piece], seeds: &[(Point2, Point2)]) -> f64 {
+    let ends = cluster
+        .iter()
+        .flat_map(|piece| [piece.from, piece.to])
+        .chain(seeds.iter().flat_map(|seed| [seed.0, seed.1]));
+    let empty = (Point2::new(f64::MAX, f64::MAX), Point2::new(f64::MIN, f64::MIN));
+    let (low, high) = ends.fold(empty, |(low, high), end| (low.inf(&end), high.sup(&end)));
+    (high - low).norm()
+}
+
+fn middle_of(piece: &Piece) -> Point2 {
+    Point2::from((piece.from.coords + piece.to.coords) * 0.5)
+}
