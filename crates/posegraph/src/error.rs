@@ -80,4 +80,12 @@ pub enum PoseGraphError {
         /// Number of directions without information.
         directions: usize,
     },
+    /// There are not as many poses as vertices.
+    #[error("there are {poses} poses for {vertices} vertices")]
+    PosesMissing {
+        /// Number of poses.
+        poses: usize,
+        /// Number of vertices.
+        vertices: usize,
+    },
 }

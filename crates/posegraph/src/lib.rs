@@ -7,6 +7,7 @@ pub mod factors;
 pub mod incremental;
 pub mod initial;
 mod linear;
+pub mod marginals;
 mod placement;
 pub mod solvers;
 pub mod synchronize;
@@ -20,6 +21,7 @@ pub use factors::{
 };
 pub use incremental::{Incremental, IncrementalOptions, Update};
 pub use initial::{Start, default_start, default_start_with};
+pub use marginals::{JointCovariance, Marginals};
 pub use placement::{
     Edge, EdgeKind, Link, Placed, Placement, PoseGraph, Scope, ScopeScratch, Skeleton, Via,
 };

@@ -24,6 +24,7 @@
 //! same calls give the same bits.
 
 mod assemble;
+mod covariance;
 
 mod front;
 mod order;

@@ -1,5 +1,6 @@
 //! Poses one by one, each optimised with all before it for far less than a solve from scratch.
 
+mod covariance;
 mod islands;
 mod options;
 mod smoother;
