@@ -5,7 +5,7 @@ mod common;
 use common::config;
 use geometry::Point2;
 use geometry::planar::{
-    near_segment, point_segment_distance, segment_segment_distance, segments_meet,
+    box_gap, near_segment, point_segment_distance, segment_segment_distance, segments_meet,
 };
 use proptest::prelude::*;
 
@@ -47,6 +47,7 @@ proptest! {
             .fold(f64::INFINITY, f64::min);
         prop_assert!(distance <= sampled + 1e-12);
         prop_assert!(distance >= sampled - (b - a).norm() / 400.0 - 1e-12);
+        prop_assert!(box_gap(&a, &b, &c, &d) <= distance);
         prop_assert_eq!(segments_meet(&a, &b, &c, &d), distance == 0.0);
         prop_assert_eq!(distance == 0.0, segment_segment_distance(&d, &c, &a, &b) == 0.0);
     }

@@ -16,7 +16,7 @@ pub use interval::Interval;
 pub use ledger::{Closed, EdgeLedger};
 pub use membership::Sector;
 pub use segments::{
-    near_segment, nearest_parameter, point_segment_distance, segment_segment_distance,
+    box_gap, near_segment, nearest_parameter, point_segment_distance, segment_segment_distance,
     segments_meet,
 };
 pub use star::StarPolygon;

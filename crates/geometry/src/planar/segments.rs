@@ -31,6 +31,13 @@ pub fn segment_segment_distance(a: &Point2, b: &Point2, c: &Point2, d: &Point2) 
         .min(point_segment_distance(d, a, b))
 }
 
+/// A lower bound of the distance between the segments `a` to `b` and `c` to `d`, metres, at a
+/// fraction of its cost: how far their boxes are apart along one axis; 0 or less if not at all.
+pub fn box_gap(a: &Point2, b: &Point2, c: &Point2, d: &Point2) -> f64 {
+    let gap = |x: f64, y: f64, z: f64, w: f64| (z.min(w) - x.max(y)).max(x.min(y) - z.max(w));
+    gap(a.x, b.x, c.x, d.x).max(gap(a.y, b.y, c.y, d.y))
+}
+
 /// Whether two closed segments share a point; exact inside the envelope of the predicates.
 pub fn segments_meet(a: &Point2, b: &Point2, c: &Point2, d: &Point2) -> bool {
     let apart = |x: f64, y: f64, z: f64, w: f64| x.max(y) < z.min(w) || z.max(w) < x.min(y);

@@ -32,6 +32,12 @@ impl Chain {
         Self { length_m: part.length_m, parts: vec![part], counts: false }
     }
 
+    /// Whether a point of a frontier edge, given by its parameter, is on the chain.
+    pub(crate) fn holds(&self, edge: usize, at: f64) -> bool {
+        let on = |part: &ChainPart| part.edge == edge && part.span.from <= at && at <= part.span.to;
+        self.parts.iter().any(on)
+    }
+
     fn extend(&mut self, parts: Vec<ChainPart>) {
         self.length_m += parts.iter().map(|part| part.length_m).sum::<f64>();
         self.parts.extend(parts);

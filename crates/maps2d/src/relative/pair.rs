@@ -19,8 +19,8 @@ pub(super) struct Work {
     clipped: Vec<Interval>,
     placements: Vec<Se2>,
     newly: Vec<Interval>,
-    /// Volumes with more slivers than before.
-    pub slivers_of: Vec<VertexId>,
+    /// Open parts that begin a sliver that was none before: volume, frontier edge, parameter on it.
+    pub slivers: Vec<(VertexId, usize, f64)>,
     /// Volumes whose ledgers changed, each with a volume that closed something there.
     pub touched: Vec<(VertexId, VertexId)>,
 }
@@ -76,11 +76,16 @@ impl RelativeMap {
         let sliver_m = self.params.sliver_m;
         let Some(state) = self.volumes[vertex].as_deref_mut() else { return false };
         self.totals.remove(state);
-        let (before_m, slivers_m) = (state.open_m, state.sliver_m);
+        let before_m = state.open_m;
+        let before = std::mem::take(&mut state.chains);
         state.measure(sliver_m);
         self.totals.add(state);
-        if state.sliver_m > slivers_m {
-            self.work.slivers_of.push(vertex);
+        for sliver in state.chains.iter().filter(|chain| !chain.counts) {
+            let Some(part) = sliver.parts.first() else { continue };
+            let at = part.span.middle();
+            if !before.iter().any(|chain| !chain.counts && chain.holds(part.edge, at)) {
+                self.work.slivers.push((vertex, part.edge, at));
+            }
         }
         state.open_m < before_m
     }

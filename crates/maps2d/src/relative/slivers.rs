@@ -33,31 +33,36 @@ struct Piece {
 }
 
 impl RelativeMap {
-    /// Looks at the volumes that have more slivers than before, and holds what has to be.
+    /// Looks at the slivers that are new, and holds what has to be.
+    ///
+    /// A sliver that is what is left of another needs no second look: what joins it only gets less,
+    /// and where what joined it counted and turned into slivers, those are new.
     ///
     /// Cost: a scope and the open parts around for each of them.
     pub(super) fn hold_slivers(&mut self, probe: &mut dyn MapProbe) {
-        let mut vertices = std::mem::take(&mut self.work.slivers_of);
-        vertices.sort_unstable();
-        vertices.dedup();
-        for &vertex in &vertices {
-            for chain in 0..self.volume(vertex).map_or(0, |state| state.chains.len()) {
-                self.hold_sliver(vertex, chain, probe);
+        let mut slivers = std::mem::take(&mut self.work.slivers);
+        slivers.sort_unstable_by(|a, b| (a.0, a.1).cmp(&(b.0, b.1)).then(a.2.total_cmp(&b.2)));
+        slivers.dedup();
+        let mut scope = Scope::default();
+        for &(vertex, edge, at) in &slivers {
+            if scope.root() != Some(vertex) {
+                let radius_m = self.params.consolidation_radius_m;
+                self.scratch.place_nearest(&self.full, vertex, radius_m, MOST_ASKED, &mut scope);
             }
+            self.hold_sliver(&scope, edge, at, probe);
         }
-        // Measuring what is held has added to the list, but no slivers.
-        vertices.clear();
-        self.work.slivers_of = vertices;
+        // Holding one makes no new ones.
+        slivers.clear();
+        self.work.slivers = slivers;
     }
 
-    fn hold_sliver(&mut self, vertex: VertexId, chain: usize, probe: &mut dyn MapProbe) {
+    /// Looks at the sliver on an edge of the root of a scope.
+    fn hold_sliver(&mut self, scope: &Scope, edge: usize, at: f64, probe: &mut dyn MapProbe) {
         let sliver_m = self.params.sliver_m;
-        let Some(state) = self.volume(vertex) else { return };
-        let Some(sliver) = state.chains.get(chain).filter(|chain| !chain.counts) else { return };
+        let Some(state) = scope.root().and_then(|vertex| self.volume(vertex)) else { return };
+        let found = state.chains.iter().find(|chain| !chain.counts && chain.holds(edge, at));
+        let Some(sliver) = found else { return };
         let seeds: Vec<(Point2, Point2)> = ends(state, sliver).collect();
-        let mut scope = Scope::default();
-        let radius_m = self.params.consolidation_radius_m;
-        self.scratch.place_nearest(&self.full, vertex, radius_m, MOST_ASKED, &mut scope);
         let pieces = self.pieces_around(scope.placed(), &seeds);
         let cluster = joined(&pieces, &seeds, JOIN_SHARE * sliver_m);
         if cluster.iter().any(|piece| piece.counts) || extent_m(&cluster, &seeds) < sliver_m {
@@ -100,6 +105,11 @@ impl RelativeMap {
                 for (from, to) in ends(state, chain) {
                     let from = row.root_from_vertex.transform(&from);
                     let to = row.root_from_vertex.transform(&to);
+                    let middle = from + (to - from) * 0.5;
+                    let half_m = 0.5 * (to - from).norm();
+                    if (middle - centre).norm() > half_m + reach_m + near_m {
+                        continue;
+                    }
                     let near = |seed: &(Point2, Point2)| {
                         segment_segment_distance(&from, &to, &seed.0, &seed.1) <= near_m
                     };

@@ -4,7 +4,7 @@ use std::fmt;
 
 use geometry::Point2;
 use geometry::planar::StarPolygon;
-use geometry::planar::{point_segment_distance, segment_segment_distance};
+use geometry::planar::{box_gap, point_segment_distance, segment_segment_distance};
 
 use crate::Clearance;
 
@@ -118,6 +118,11 @@ impl LocalVolume {
             origin
         };
         for (from, to) in walls {
+            let Clearance { at_start_m, after_m, at_end_m, .. } = clearance;
+            let farthest_m = at_start_m.max(after_m).max(at_end_m);
+            if box_gap(&origin, to_in_anchor, &from, &to) >= farthest_m {
+                continue;
+            }
             let along_m = segment_segment_distance(&origin, to_in_anchor, &from, &to);
             clearance.along_m = clearance.along_m.min(along_m);
             let after_m = segment_segment_distance(&away, to_in_anchor, &from, &to);
@@ -162,6 +167,7 @@ impl LocalVolume {
         seen && self
             .obstacles
             .iter()
+            .filter(|wall| box_gap(from, to, &wall.from, &wall.to) < clearance_m)
             .all(|wall| segment_segment_distance(from, to, &wall.from, &wall.to) >= clearance_m)
             && self.posts.iter().all(|post| point_segment_distance(post, from, to) >= clearance_m)
     }
