@@ -9,6 +9,7 @@ pub mod initial;
 mod linear;
 pub mod marginals;
 mod placement;
+pub mod robust;
 pub mod solvers;
 pub mod synchronize;
 pub mod synthetic;
@@ -25,6 +26,7 @@ pub use marginals::{JointCovariance, Marginals};
 pub use placement::{
     Edge, EdgeKind, Link, Placed, Placement, PoseGraph, Scope, ScopeScratch, Skeleton, Via,
 };
+pub use robust::{Robust, RobustSolution, optimize_robust};
 pub use solvers::{
     Fill, Iteration, Loss, LossOn, Optimizer, OptimizerEvent, Options, Report, Solution, Solver,
     Termination, optimize, optimize_weighted, optimize_with,

@@ -29,6 +29,12 @@ pub enum Loss {
         /// Where the loss ends.
         width: f64,
     },
+    /// Dynamic covariance scaling (Agarwal et al. 2013) with `Φ = k²`: the loss whose weight is the
+    /// square of its scale `min(1, 2Φ/(Φ + s))`.
+    Dcs {
+        /// Where scaling begins.
+        width: f64,
+    },
 }
 
 impl Loss {
@@ -42,6 +48,8 @@ impl Loss {
             Self::Cauchy { width: k } => k * k * (s / (k * k)).ln_1p(),
             Self::GemanMcClure { width: k } => k * k * s / (k * k + s),
             Self::Tls { width: k } => s.min(k * k),
+            Self::Dcs { width: k } if s <= k * k => s,
+            Self::Dcs { width: k } => k * k * (3.0 - 4.0 * k * k / (k * k + s)),
         }
     }
 
@@ -59,6 +67,7 @@ impl Loss {
                 share * share
             }
             Self::Tls { width: k } => f64::from(u8::from(s <= k * k)),
+            Self::Dcs { width: k } => (2.0 * k * k / (k * k + s)).min(1.0).powi(2),
         }
     }
 }

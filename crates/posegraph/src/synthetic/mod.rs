@@ -9,18 +9,21 @@
 //!    seeded stream; the information is the inverse covariance of that noise, in g2o's scaling, so
 //!    that `χ²` per degree of freedom is about 1 at the optimum.
 //! 4. The start values are the odometry chained from the first true pose, as graph files have them.
+//! 5. On demand, wrong loop closures are added to any graph ([`with_outliers`]).
 //!
 //! The same parameters give the same graph. The layouts follow the public graphs of the same names
 //! (sphere and torus: Kaess; Manhattan: Olson 2006; city: Kaess 2012).
 
 mod lattice;
 mod measure;
+mod outliers;
 mod ring;
 mod surfaces;
 mod walk;
 
 pub use lattice::{Lattice, lattice};
 pub use measure::{Noise, Synthetic};
+pub use outliers::{WithOutliers, with_outliers};
 pub use ring::{Ring, ring};
 pub use surfaces::{Sphere, Torus, sphere, torus};
 pub use walk::{Walk, city, manhattan, walk};

@@ -8,13 +8,14 @@ use proptest::prelude::*;
 
 use crate::oracle::{distance, graph};
 
-fn losses(width: f64) -> [Loss; 5] {
+fn losses(width: f64) -> [Loss; 6] {
     [
         Loss::None,
         Loss::Huber { width },
         Loss::Cauchy { width },
         Loss::GemanMcClure { width },
         Loss::Tls { width },
+        Loss::Dcs { width },
     ]
 }
 

@@ -1,0 +1,59 @@
+//! Which method deals with wrong loop closures.
+
+/// How wrong loop closures are dealt with; see the [module](crate::robust) for each.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Robust {
+    /// Every factor is believed.
+    #[default]
+    None,
+    /// Huber's loss.
+    Huber,
+    /// Cauchy's loss.
+    Cauchy,
+    /// Geman and McClure's loss.
+    GemanMcClure,
+    /// Truncated least squares from the start as it is.
+    Tls,
+    /// Graduated non-convexity towards truncated least squares.
+    GncTls,
+    /// Graduated non-convexity towards Geman and McClure's loss.
+    GncGm,
+    /// Dynamic covariance scaling.
+    Dcs,
+    /// Switchable constraints.
+    Switchable,
+    /// Pairwise consistent measurement set maximisation.
+    Pcm,
+}
+
+impl Robust {
+    /// Every method, in the order of the documentation.
+    pub const ALL: [Self; 10] = [
+        Self::None,
+        Self::Huber,
+        Self::Cauchy,
+        Self::GemanMcClure,
+        Self::Tls,
+        Self::GncTls,
+        Self::GncGm,
+        Self::Dcs,
+        Self::Switchable,
+        Self::Pcm,
+    ];
+
+    /// A name for reports and command lines: `gnc-tls` and so on.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::None => "none",
+            Self::Huber => "huber",
+            Self::Cauchy => "cauchy",
+            Self::GemanMcClure => "geman-mcclure",
+            Self::Tls => "tls",
+            Self::GncTls => "gnc-tls",
+            Self::GncGm => "gnc-gm",
+            Self::Dcs => "dcs",
+            Self::Switchable => "switchable",
+            Self::Pcm => "pcm",
+        }
+    }
+}

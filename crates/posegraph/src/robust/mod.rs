@@ -1,0 +1,75 @@
+//! Wrong loop closures: found, and left out.
+//!
+//! Places look alike, so some loop closures are wrong, and one of them is enough to fold a map.
+//! [`optimize_robust`] deals with them in the way that [`Robust`] names, and lists those that it does
+//! not believe. Odometry is trusted; only loop closures can be rejected ([`closures`] tells which are).
+//!
+//! **The scale of the noise.** All methods ask whether an error is larger than noise can make it, so
+//! they need information matrices that are right, and those of public files are off by up to 20,000
+//! times. The scale is estimated, twice:
+//!
+//! 1. **Before** anything is optimised, from loops of two neighbouring closures and the odometry between
+//!    their ends, whose covariance is known to first order. Each closure is compared with its nearest
+//!    neighbour along odometry. Wrong ones disagree by orders of magnitude, so the scale is found from
+//!    below: that at which the median of the loops within a 99 % gate is the median of a chi-square
+//!    distribution ([`RobustSolution::loop_scale`]).
+//! 2. **At a solution**, from the residuals of believed closures: the median, or the 95 % quantile
+//!    where the tail is heavier; or `χ²` per degree of freedom of all that is believed, which is what is
+//!    reported ([`RobustSolution::noise_scale`]).
+//!
+//! A closure is believed up to the 1 - 10⁻⁶ quantile of the chi-square distribution of its dimension,
+//! times the scale: genuine closures have heavier tails than Gaussian noise, and wrong ones are far
+//! off.
+//!
+//! **Graduated non-convexity** (Yang et al. 2020), `GncTls` and `GncGm`:
+//!
+//! 1. Closures that agree with one of their four nearest neighbours along odometry, where that is no
+//!    accident (the ellipsoid of the gate is small in the volume of all relative poses), are the first
+//!    to be believed; the graph is optimised with them alone. Where fewer than a tenth have such
+//!    a witness, all closures are taken, as in the paper.
+//! 2. Weights of all closures follow from their residuals by the surrogate cost with control
+//!    parameter `μ = c²/level`. The level starts at twice the largest residual, from witnesses at most
+//!    100 gates up, and falls by 1.4 in each round of three iterations. Our deviation: the gate `c²`
+//!    follows the scale of what is believed at the time.
+//! 3. With `GncTls` weights end at 0 or 1; with `GncGm` at those of Geman and McClure.
+//! 4. **Settling.** Closures below the gate are taken, the others left out, and the graph optimised, until
+//!    nothing changes; at first with a gate 64 times as wide, then 16, then 4: a good closure that was
+//!    left out draws the map to itself once it is taken in. Last, each closure that had been rejected
+//!    before is left out where that lowers the cost by more than two gates.
+//!
+//! **PCM** (Mangelson et al. 2018): two closures are consistent where the loop through both and the
+//! odometry between them passes the gate at the scale of loops. The largest clique of consistent
+//! closures is searched by branch and bound from a greedy one, and left unproven where that takes too
+//! long ([`RobustSolution::largest_set`]). The graph is optimised with the clique and then settled as
+//! above, which the paper does not: a clique asks every pair to agree.
+//!
+//! **Losses**, by reweighting from the start as it is: Huber, Cauchy, Geman-McClure, truncated least
+//! squares, and **dynamic covariance scaling** (Agarwal et al. 2013), whose `Φ` is the 99 % quantile
+//! times the scale. **Switchable constraints** (Sünderhauf and Protzel 2012) keep one switch for each
+//! closure as a variable of its own; poses and switches are minimised in turns from all switches on.
+//! Eliminated in closed form the switches would leave Geman and McClure's loss with `k² = Ξ`. All of them
+//! reject what is beyond four gates at the scale of loops; none has a way back from a wrong start.
+//!
+//! The start of all is the caller's; odometry is the one that no wrong closure has touched.
+//! Everything is computed in the order of the data: same input, same bits.
+//!
+//! # Results
+#![doc = include_str!("../../docs/robust.md")]
+
+mod believed;
+mod chain;
+mod chi_square;
+mod clique;
+mod dense;
+mod gate;
+mod gnc;
+mod method;
+mod noise;
+mod optimize;
+mod pcm;
+mod soft;
+
+pub use chain::closures;
+pub use chi_square::chi_square_quantile;
+pub use method::Robust;
+pub use optimize::{RobustSolution, optimize_robust};
