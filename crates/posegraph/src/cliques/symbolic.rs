@@ -1,5 +1,7 @@
 //! Which cliques come of an elimination order.
 
+use std::ops::Range;
+
 use super::order::order;
 use super::tree::{CliqueTree, HELD, Term};
 
@@ -27,6 +29,9 @@ pub(super) struct Workspace {
     /// Local indices in elimination order, and the place of each in it.
     pub order: Vec<usize>,
     pub position: Vec<usize>,
+    /// Rows of separators, and the group of each column.
+    pub rows: Vec<usize>,
+    pub owner: Vec<usize>,
     /// Row of each variable in the clique that is being eliminated, or [`HELD`].
     pub row: Vec<usize>,
     /// Whether the step of a variable changed in the last solve.
@@ -55,112 +60,121 @@ impl<const D: usize> CliqueTree<D> {
             work.position[local] = at;
         }
         work.seen.fill(HELD);
-        // The rows below the diagonal of each column, as positions; columns are only kept as the
-        // separator of the clique that they end.
-        let mut separators: Vec<Vec<usize>> = Vec::new();
-        let mut ends: Vec<usize> = Vec::new();
-        let mut members: Vec<Vec<usize>> = Vec::new();
-        // Cliques whose parent is the column: a linked list.
-        let mut first = vec![HELD; count];
-        let mut next: Vec<usize> = Vec::new();
-        let mut children: Vec<Vec<usize>> = Vec::new();
-        for column in 0..count {
-            let mut rows = Vec::new();
-            work.seen[column] = column;
-            let local = work.order[column];
-            for &other in &work.neighbours[work.starts[local]..work.starts[local + 1]] {
-                let row = work.position[other];
-                if row > column && work.seen[row] != column {
-                    work.seen[row] = column;
-                    rows.push(row);
-                }
-            }
-            let mut beneath = first[column];
-            let mut longest = HELD;
-            while beneath != HELD {
-                for &row in &separators[beneath] {
-                    if work.seen[row] != column {
-                        work.seen[row] = column;
-                        rows.push(row);
-                    }
-                }
-                if longest == HELD || separators[beneath].len() > separators[longest].len() {
-                    longest = beneath;
-                }
-                beneath = next[beneath];
-            }
-            rows.sort_unstable();
-            let joined = longest != HELD && {
-                let width = members[longest].len();
-                let zeros = width * (rows.len() + 1 - separators[longest].len());
-                zeros <= ZEROS || zeros * 100 <= ZEROS_PERCENT * width * (width + rows.len())
-            };
-            let clique = if joined {
-                longest
-            } else {
-                separators.push(Vec::new());
-                ends.push(HELD);
-                members.push(Vec::new());
-                next.push(HELD);
-                children.push(Vec::new());
-                separators.len() - 1
-            };
-            let mut beneath = first[column];
-            while beneath != HELD {
-                if beneath != clique {
-                    children[clique].push(beneath);
-                }
-                beneath = next[beneath];
-            }
-            members[clique].push(column);
-            ends[clique] = column;
-            if let Some(&parent) = rows.first() {
-                next[clique] = first[parent];
-                first[parent] = clique;
-            }
-            separators[clique] = rows;
-        }
+        let groups = group_columns(&mut work);
         // Children end before their parents do.
+        let mut slots = vec![HELD; groups.len()];
         let mut by_end = vec![HELD; count];
-        for (clique, &end) in ends.iter().enumerate() {
-            by_end[end] = clique;
+        for (group, found) in groups.iter().enumerate() {
+            by_end[found.end] = group;
         }
         self.made.clear();
-        let mut slots = vec![HELD; ends.len()];
-        for &clique in by_end.iter().filter(|clique| **clique != HELD) {
+        for &group in by_end.iter().filter(|group| **group != HELD) {
             let slot = self.fresh();
-            slots[clique] = slot;
+            slots[group] = slot;
             self.made.push(slot);
-            let variable = |&column: &usize| work.vars[work.order[column]];
-            let made = &mut self.cliques[slot];
-            made.frontals.extend(members[clique].iter().map(variable));
-            made.separator.extend(separators[clique].iter().map(variable));
-            made.children.extend(children[clique].iter().map(|&child| slots[child]));
-            for &frontal in &made.frontals {
-                self.clique_of[frontal] = slot;
-            }
-            if separators[clique].is_empty() {
-                self.roots.push(slot);
-            }
-            for at in 0..self.cliques[slot].children.len() {
-                let child = self.cliques[slot].children[at];
-                self.cliques[child].parent = slot;
-            }
+            let rows = &work.rows[groups[group].separator.clone()];
+            let separator = rows.iter().map(|&row| work.vars[work.order[row]]);
+            self.cliques[slot].separator.extend(separator);
         }
-        for &orphan in &self.orphans {
+        for (column, &group) in work.owner.iter().enumerate() {
+            let variable = work.vars[work.order[column]];
+            self.cliques[slots[group]].frontals.push(variable);
+            self.clique_of[variable] = slots[group];
+        }
+        for at in 0..self.made.len() {
+            // The separator stands in elimination order.
+            let first = self.cliques[self.made[at]].separator.first().copied();
+            self.hang(self.made[at], first);
+        }
+        for at in 0..self.orphans.len() {
             let place = |variable: &usize| work.position[work.local[*variable]];
-            let first = self.cliques[orphan].separator.iter().copied().min_by_key(place);
-            match first.map(|variable| self.clique_of[variable]) {
-                Some(parent) => {
-                    self.cliques[orphan].parent = parent;
-                    self.cliques[parent].children.push(orphan);
-                }
-                None => self.roots.push(orphan),
-            }
+            let separator = &self.cliques[self.orphans[at]].separator;
+            let first = separator.iter().copied().min_by_key(place);
+            self.hang(self.orphans[at], first);
         }
         for &variable in &work.vars {
             work.local[variable] = HELD;
         }
         self.work = work;
     }
+
+    /// Hangs a clique beneath that of the first variable of its separator.
+    fn hang(&mut self, clique: usize, first: Option<usize>) {
+        match first.map(|variable| self.clique_of[variable]) {
+            Some(parent) => {
+                self.cliques[clique].parent = parent;
+                self.cliques[parent].children.push(clique);
+            }
+            None => self.roots.push(clique),
+        }
+    }
+}
+
+/// Columns that will be a clique.
+struct Group {
+    width: usize,
+    /// The last of its columns.
+    end: usize,
+    /// Rows of the separator, ascending, as a range of `work.rows`.
+    separator: Range<usize>,
+    /// The next group whose parent is the same column, or [`HELD`].
+    next: usize,
+}
+
+/// Gathers columns of the factor into groups; `work.owner` tells the group of each column.
+fn group_columns(work: &mut Workspace) -> Vec<Group> {
+    let count = work.order.len();
+    let mut groups: Vec<Group> = Vec::new();
+    // The first group whose parent is the column.
+    let mut beneath = vec![HELD; count];
+    work.seen.fill(HELD);
+    work.rows.clear();
+    work.owner.clear();
+    for column in 0..count {
+        let start = work.rows.len();
+        work.seen[column] = column;
+        let local = work.order[column];
+        for &other in &work.neighbours[work.starts[local]..work.starts[local + 1]] {
+            let row = work.position[other];
+            if row > column && work.seen[row] != column {
+                work.seen[row] = column;
+                work.rows.push(row);
+            }
+        }
+        let mut child = beneath[column];
+        let mut longest = HELD;
+        while child != HELD {
+            for at in groups[child].separator.clone() {
+                let row = work.rows[at];
+                if work.seen[row] != column {
+                    work.seen[row] = column;
+                    work.rows.push(row);
+                }
+            }
+            if longest == HELD || groups[child].separator.len() > groups[longest].separator.len() {
+                longest = child;
+            }
+            child = groups[child].next;
+        }
+        work.rows[start..].sort_unstable();
+        let separator = start..work.rows.len();
+        let joined = longest != HELD && {
+            let Group { width, separator: before, .. } = &groups[longest];
+            let zeros = width * (separator.len() + 1 - before.len());
+            zeros <= ZEROS || zeros * 100 <= ZEROS_PERCENT * width * (width + separator.len())
+        };
+        let group = if joined { longest } else { groups.len() };
+        let next = match work.rows.get(start) {
+            Some(&parent) => std::mem::replace(&mut beneath[parent], group),
+            None => HELD,
+        };
+        if joined {
+            let width = groups[group].width + 1;
+            groups[group] = Group { width, end: column, separator, next };
+        } else {
+            groups.push(Group { width: 1, end: column, separator, next });
+        }
+        work.owner.push(group);
+    }
+    groups
 }
