@@ -23,6 +23,34 @@ fn floor_plan(name: &str) -> Option<PathBuf> {
     None
 }
 
+/// The shipped config with a maze of corridors of 1 m between walls of 1 m in place of its rooms.
+fn narrow_maze(side: usize) -> String {
+    let building = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../configs/maps/building.toml");
+    let text = std::fs::read_to_string(building).expect("the shipped config");
+    let rooms = "[world.rooms]\ncolumns = 4\nrows    = 3\n";
+    assert!(text.contains(rooms), "the config names its rooms otherwise now");
+    let maze =
+        format!("[world.maze]\ncolumns = {side}\nrows = {side}\ncorridor_m = 1.0\nwall_m = 1.0\n");
+    text.replace(rooms, &maze)
+}
+
+/// The robot sees past two corners of such a maze: frontier that it can reach only from elsewhere,
+/// cut up by many volumes that look at it from nearly the same place.
+#[test]
+fn a_maze_of_narrow_corridors_is_complete_and_true() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("maze.toml");
+    std::fs::write(&file, narrow_maze(6)).expect("a disk");
+    let sets = vec!["odometry.scale=0.0".to_owned()];
+    let loaded = Loaded::read(&file, &Overrides { sets, world: None }).expect("a config");
+    let Experiment { config, place, coverage } = Experiment::prepare(&loaded).expect("a place");
+    let runs = drive(&config, &place.world, &coverage, &["relative"], &mut Off, &mut |_| ());
+    let run = runs.expect("nobody watches, so nobody fails").remove(0).metrics;
+    assert!(run.believed_complete, "{run:?}");
+    assert_eq!(run.coverage, 1.0, "{run:?}");
+    assert_eq!(run.collisions, 0, "{run:?}");
+}
+
 /// Explores a floor plan without noise: nothing may be left, and nothing may be missed.
 fn is_complete_and_true(name: &str, more_sets: &[&str]) {
     let Some(file) = floor_plan(name) else { return };
