@@ -379,7 +379,7 @@ fn config_shows_origins_defaults_and_schema() {
     assert_eq!(json(&desk.driftlab(&["config", "schema", "--json"])), schema);
 }
 
-/// Every config that the repository ships.
+/// Every config of an experiment that the repository ships; those in `graph` are sweeps.
 fn shipped() -> Vec<PathBuf> {
     let mut all = Vec::new();
     let mut folders = vec![root().join("configs")];
@@ -387,7 +387,7 @@ fn shipped() -> Vec<PathBuf> {
         for entry in fs::read_dir(folder).expect("a folder") {
             let path = entry.expect("an entry").path();
             if path.is_dir() {
-                folders.push(path);
+                folders.extend((!path.ends_with("graph")).then_some(path));
             } else if path.extension().is_some_and(|extension| extension == "toml") {
                 all.push(path);
             }

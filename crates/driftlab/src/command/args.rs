@@ -64,6 +64,18 @@ pub(super) enum Command {
             driftlab run configs/maps/building.toml --world floor.yaml --json"
     )]
     Run(RunArgs),
+    /// Do the same work over many inputs and leave a table
+    #[command(
+        long_about = "Do the same work over many inputs and leave a table.\n\n\
+            The config says what: [graph.outliers] adds wrong loop closures to pose graphs and lets \
+            robust methods find them. The folder holds results.parquet, one row for each graph, share, \
+            seed and method. Everything but the seconds is the same each time. A table in Markdown \
+            is printed.",
+        after_help = "Examples:\n  \
+            driftlab sweep configs/graph/outliers.toml\n  \
+            driftlab sweep configs/graph/outliers.toml --csv --out /tmp/outliers --force"
+    )]
+    Sweep(SweepArgs),
     /// Pose-graph files: tell, optimise, compare, convert, make up
     Graph(GraphArgs),
     /// Tell what a recording holds: entities, timelines, rows, events, final metrics
@@ -110,6 +122,21 @@ pub(super) struct RunArgs {
     #[arg(long, value_name = "FILE.rrd")]
     pub(super) record: Option<PathBuf>,
     /// Replace the run that is in the folder already
+    #[arg(long)]
+    pub(super) force: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct SweepArgs {
+    /// The sweep: a TOML file
+    pub(super) config: PathBuf,
+    /// Folder of the results [default: recordings/NAME]
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+    /// Write results.csv, too
+    #[arg(long)]
+    pub(super) csv: bool,
+    /// Replace results that are in the folder already
     #[arg(long)]
     pub(super) force: bool,
 }

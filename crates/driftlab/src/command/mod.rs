@@ -12,6 +12,7 @@ mod inspect;
 mod out;
 mod progress;
 mod run;
+mod sweep;
 mod table;
 mod view;
 
@@ -28,6 +29,7 @@ pub fn main() -> ExitCode {
     let out = Out::new(&cli.global);
     let result = match &cli.command {
         Command::Run(args) => run::run(args, &out),
+        Command::Sweep(args) => sweep::sweep(args, &out),
         Command::Graph(args) => graph::graph(args, &out),
         Command::Inspect(args) => inspect::inspect(args, &out),
         Command::View(args) => view::view(args, &out),

@@ -13,6 +13,7 @@
 //! | `source`, `document` | texts, spans, merging |
 //! | `schema`, `check` | ranges, from the types' attributes; rules between keys |
 //! | `explain`, `error` | the messages |
+//! | `sweep` | the config of a sweep |
 //! | `show` | resolved config with origins, annotated defaults |
 
 mod check;
@@ -29,6 +30,7 @@ mod robot;
 mod schema;
 mod show;
 mod source;
+mod sweep;
 #[cfg(test)]
 mod tests;
 mod to_params;
@@ -46,6 +48,7 @@ pub use robot::{Odometry, Places, Robot, Sensor};
 pub use schema::{meaning, schema};
 pub use show::{defaults_toml, origins, plain_toml, resolved_toml};
 pub use source::{Origin, Place};
+pub use sweep::{GraphSweep, OutlierSweep, Sweep, SyntheticGraph};
 pub use world::{
     ImageWorld, MapServerWorld, MovingAiWorld, PaperMap, PaperWorld, PolygonsWorld, ThesisMap,
     ThesisWorld, World,

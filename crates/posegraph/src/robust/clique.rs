@@ -7,7 +7,7 @@
 //! 3. After [`BRANCHES`] branches the largest clique so far is returned, without proof.
 
 /// Branches that are looked at before the search gives up.
-const BRANCHES: usize = 20_000;
+const BRANCHES: usize = 2_000;
 
 /// Vertices that the greedy search starts from.
 const STARTS: usize = 20;

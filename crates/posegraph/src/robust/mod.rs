@@ -40,8 +40,10 @@
 //! **PCM** (Mangelson et al. 2018): two closures are consistent where the loop through both and the
 //! odometry between them passes the gate at the scale of loops. The largest clique of consistent
 //! closures is searched by branch and bound from a greedy one, and left unproven where that takes too
-//! long ([`RobustSolution::largest_set`]). The graph is optimised with the clique and then settled as
-//! above, which the paper does not: a clique asks every pair to agree.
+//! long ([`RobustSolution::largest_set`]). Heavy tails keep many good closures out of a clique, which asks
+//! every pair to agree, so that it is not the last word here: it takes the place of the witnesses in
+//! step 1 above, and graduated non-convexity goes on from it (so does Kimera-RPGO, Rosinol et al. 2020;
+//! the paper stops at the clique).
 //!
 //! **Losses**, by reweighting from the start as it is: Huber, Cauchy, Geman-McClure, truncated least
 //! squares, and **dynamic covariance scaling** (Agarwal et al. 2013), whose `Φ` is the 99 % quantile

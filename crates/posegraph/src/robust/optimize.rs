@@ -73,22 +73,22 @@ pub fn optimize_robust<P: Manifold<D>, const D: usize>(
         found.rounds = rounds;
         return found;
     }
-    let (poses, weights, rounds, before, largest_set) = if robust == Robust::Pcm {
+    let mut witnessed = witnessed;
+    let mut largest_set = None;
+    if robust == Robust::Pcm {
         let set = consistent(&believed, scale);
-        let (poses, done) = believed.descend(start, &set.weights, &believed.options);
-        (poses, set.weights, 1, done, Some(set.proven))
-    } else {
-        let target = if robust == Robust::GncGm { Target::GemanMcClure } else { Target::Tls };
-        let found = graduate(&believed, start, &witnessed, target);
-        (found.poses, found.weights, found.rounds, found.iterations, None)
-    };
-    let settled = settle(&believed, poses, &weights, scale, probe);
+        witnessed.supported = set.members;
+        largest_set = Some(set.proven);
+    }
+    let target = if robust == Robust::GncGm { Target::GemanMcClure } else { Target::Tls };
+    let found = graduate(&believed, start, &witnessed, target);
+    let settled = settle(&believed, found.poses, &found.weights, scale, probe);
     let rejected = believed.closures().filter(|&k| settled.solution.weights[k] < 0.5).collect();
-    let mut found = told(&believed, settled.solution, rejected, of_loops, settled.gate);
-    found.iterations = before + settled.iterations;
-    found.rounds = rounds;
-    found.largest_set = largest_set;
-    found
+    let mut result = told(&believed, settled.solution, rejected, of_loops, settled.gate);
+    result.iterations = found.iterations + settled.iterations;
+    result.rounds = found.rounds;
+    result.largest_set = largest_set;
+    result
 }
 
 /// Closures whose `χ²` is beyond a limit.

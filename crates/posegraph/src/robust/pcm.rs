@@ -12,8 +12,8 @@ const PAIR_GATE: f64 = 1.0 - 1e-6;
 
 /// Closures of a largest consistent set.
 pub(super) struct Consistent {
-    /// 1 for trusted factors and the closures of the set.
-    pub weights: Vec<f64>,
+    /// Whether each factor is a closure of the set.
+    pub members: Vec<bool>,
     /// Whether no larger set exists.
     pub proven: bool,
 }
@@ -42,12 +42,9 @@ pub(super) fn consistent<P: Manifold<D>, const D: usize>(
         }
     }
     let clique = largest_clique(&adjacency);
-    let mut weights = believed.trusting.clone();
-    for index in believed.closures() {
-        weights[index] = 0.0;
-    }
+    let mut members = vec![false; believed.closes.len()];
     for at in clique.vertices {
-        weights[list[at].0] = 1.0;
+        members[list[at].0] = true;
     }
-    Consistent { weights, proven: clique.proven }
+    Consistent { members, proven: clique.proven }
 }

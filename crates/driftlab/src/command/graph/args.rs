@@ -99,6 +99,16 @@ pub(super) enum Robust {
     GemanMcclure,
     /// Truncated least squares
     Tls,
+    /// Graduated non-convexity towards truncated least squares: finds wrong closures best
+    GncTls,
+    /// Graduated non-convexity towards Geman and McClure's loss
+    GncGm,
+    /// Dynamic covariance scaling
+    Dcs,
+    /// Switchable constraints
+    Switchable,
+    /// The largest set of closures that agree in pairs
+    Pcm,
 }
 
 #[derive(Debug, Args)]

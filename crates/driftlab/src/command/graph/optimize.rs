@@ -10,8 +10,8 @@ use pose::{Se2, Se3};
 use posegraph::factors::chi2;
 use posegraph::synchronize::{Rigid, SynchronizeOptions};
 use posegraph::{
-    ErrorKind, FactorGraph, FactorGraph2, FactorGraph3, Loss, Options, Solution, Solver,
-    Termination, certify, sesync_cost,
+    ErrorKind, FactorGraph, FactorGraph2, FactorGraph3, Options, Solution, Solver, Termination,
+    certify, sesync_cost,
 };
 use serde_json::{Value, json};
 
@@ -22,9 +22,6 @@ use super::input;
 use super::numbers::{listed, shown};
 use super::output::{self, Target};
 use super::start::{self, Solved};
-
-/// An edge that weighs less at the end is listed as rejected.
-const REJECTED_BELOW: f64 = 0.5;
 
 pub(super) fn optimize(args: &OptimizeArgs, out: &Out) -> Result<(), Failure> {
     let target = args.output.as_deref().map(|path| Target::new(path, args.to, args.force));
@@ -101,7 +98,6 @@ fn solve<P: Dimension<D>, const D: usize>(
             SolverName::Lm => Solver::LevenbergMarquardt,
             SolverName::Dogleg => Solver::Dogleg,
         },
-        loss: loss(args.robust),
         max_iterations: args.max_iterations,
         threads: args.threads,
         ..Options::default()
@@ -111,8 +107,10 @@ fn solve<P: Dimension<D>, const D: usize>(
         None => None,
     };
     let solved = match &mut recording {
-        Some(recording) => start::solve(&graph, args.init, &options, recording),
-        None => start::solve(&graph, args.init, &options, &mut probe::Off),
+        Some(recording) => {
+            start::solve(&graph, args.init, robust(args.robust), &options, recording)
+        }
+        None => start::solve(&graph, args.init, robust(args.robust), &options, &mut probe::Off),
     };
     out.detail(&format!("started from {}", solved.init));
     let solution = &solved.solution;
@@ -176,14 +174,19 @@ fn certified<P: Rigid<D>, const D: usize>(
     Certified { json, text }
 }
 
-fn loss(robust: Robust) -> Loss {
-    match robust {
-        Robust::None => Loss::None,
-        // 95 % efficient where the noise is Gaussian, for one degree of freedom.
-        Robust::Huber => Loss::Huber { width: 1.345 },
-        Robust::Cauchy => Loss::Cauchy { width: 2.385 },
-        Robust::GemanMcclure => Loss::GemanMcClure { width: 4.0 },
-        Robust::Tls => Loss::Tls { width: 4.0 },
+fn robust(name: Robust) -> posegraph::Robust {
+    use posegraph::Robust as Method;
+    match name {
+        Robust::None => Method::None,
+        Robust::Huber => Method::Huber,
+        Robust::Cauchy => Method::Cauchy,
+        Robust::GemanMcclure => Method::GemanMcClure,
+        Robust::Tls => Method::Tls,
+        Robust::GncTls => Method::GncTls,
+        Robust::GncGm => Method::GncGm,
+        Robust::Dcs => Method::Dcs,
+        Robust::Switchable => Method::Switchable,
+        Robust::Pcm => Method::Pcm,
     }
 }
 
@@ -235,17 +238,17 @@ fn tell<P: Dimension<D>, const D: usize>(
     let report = &solution.report;
     let log_cost = chi2(graph, &solution.poses, ErrorKind::Log);
     let sesync_cost = sesync_cost(graph, &solution.poses);
-    let rejected: Vec<Value> = solution
-        .weights
-        .iter()
-        .enumerate()
-        .filter(|&(_, &weight)| weight < REJECTED_BELOW && args.robust != Robust::None)
-        .map(|(index, &weight)| {
+    let doubts = solved.doubts.as_ref();
+    let rejected = doubts.map_or(&[][..], |doubts| &doubts.rejected);
+    let rejected: Vec<Value> = (rejected.iter())
+        .map(|&index| {
             let factor = &graph.factors[index];
             let (from, to) = (graph.ids[factor.from], graph.ids[factor.to]);
+            let weight = solution.weights[index];
             json!({ "edge": index, "from": from, "to": to, "weight": weight })
         })
         .collect();
+    let iterations = doubts.map_or(report.iterations.len(), |doubts| doubts.iterations);
     let (value, threshold) = measured(&report.termination);
     let converged = report.termination.is_converged();
     let policy = &report.information;
@@ -262,7 +265,7 @@ fn tell<P: Dimension<D>, const D: usize>(
         "cost": report.cost,
         "log_cost": log_cost,
         "sesync_cost": sesync_cost,
-        "iterations": report.iterations.len(),
+        "iterations": iterations,
         "termination": report.termination.name(),
         "termination_value": value,
         "termination_threshold": threshold,
@@ -270,6 +273,8 @@ fn tell<P: Dimension<D>, const D: usize>(
         "secs_init": secs_init,
         "secs_optimize": secs_optimize,
         "rejected_edges": rejected,
+        "noise_scale": doubts.map(|doubts| doubts.noise_scale),
+        "gate": doubts.map(|doubts| doubts.gate),
         "certificate": certificate.map(|certificate| certificate.json.clone()),
         "information": {
             "projected": policy.projected,
@@ -290,7 +295,7 @@ fn tell<P: Dimension<D>, const D: usize>(
         ("chi2", format!("{:.9} ({degrees} degrees of freedom)", report.chi2)),
         ("log cost", format!("{log_cost:.9}")),
         ("SE-Sync cost", format!("{sesync_cost:.9} (not minimised here)")),
-        ("iterations", report.iterations.len().to_string()),
+        ("iterations", iterations.to_string()),
         ("ended", format!("{} ({value} against {threshold})", report.termination.name())),
     ];
     if report.components > 1 {
@@ -312,8 +317,13 @@ fn tell<P: Dimension<D>, const D: usize>(
     if let Some(certificate) = certificate {
         rows.push(("certificate", certificate.text.clone()));
     }
-    if args.robust != Robust::None {
-        rows.push(("rejected", format!("{} edges", rejected.len())));
+    if let Some(doubts) = doubts {
+        rows.push((
+            "rejected",
+            format!("{} edges of chi2 over {}", rejected.len(), shown(doubts.gate)),
+        ));
+        let scale = shown(doubts.noise_scale);
+        rows.push(("noise scale", format!("{scale} times the variance that the file says")));
     }
     let failure = match report.termination {
         Termination::NotFinite { .. } | Termination::Singular { .. } => {
