@@ -29,7 +29,7 @@ const SECOND_CHANCE: f64 = 64.0;
 const WORTH: f64 = 2.0;
 
 /// Doubted closures that are tried without, at most: those with the largest `χ²`.
-const TRIALS: usize = 50;
+const TRIALS: usize = 20;
 
 /// Rounds of judging and optimising again.
 const ROUNDS: i32 = 10;
