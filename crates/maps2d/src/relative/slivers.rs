@@ -10,7 +10,7 @@
 use geometry::Point2;
 use geometry::planar::{Interval, segment_segment_distance};
 use posegraph::{Placed, Scope};
-use probe::{PathId, VertexId};
+use probe::PathId;
 
 use super::pair::{placements, spans_inside};
 use super::retire::MOST_ASKED;
