@@ -36,6 +36,11 @@ def run(command, limit):
         return None, secs
 
 
+def cpu_of_ours(said, process):
+    """An upper bound of the CPU time: driftlab tells wall time by phase, which other work on the machine makes longer."""
+    return min(said["secs_init"] + said["secs_optimize"], process)
+
+
 def best_of(command, runs, limit):
     """The run with the least CPU time in the optimiser, with the least CPU time of the process."""
     results = []
@@ -44,7 +49,7 @@ def best_of(command, runs, limit):
         if result is None:
             return None
         if "secs_optimize" in result:
-            result["secs"] = result["secs_init"] + result["secs_optimize"]
+            result["secs"] = cpu_of_ours(result, secs)
         results.append((result["secs"], secs, result))
         if secs > 5:
             break
