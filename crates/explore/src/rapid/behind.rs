@@ -37,7 +37,6 @@ impl Behind {
             point_in_body: self.point_in_body.map(|p| here_from_there.inverse_transform(&p)),
             goal_in_body: here_from_there.inverse_transform(&self.goal_in_body),
             moves_left: self.moves_left.saturating_sub(1),
-            ..self
         }
     }
 }
