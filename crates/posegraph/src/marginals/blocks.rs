@@ -8,7 +8,7 @@ use crate::cliques::{CliqueTree, HELD, Term};
 use crate::factors::{ErrorKind, FactorGraph, Manifold, admissible};
 use crate::initial::Components;
 
-/// The joint covariance of two vertices, in the frame of each; see the [module](self).
+/// The joint covariance of two vertices, in the frame of each; see the page of the module.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct JointCovariance<const D: usize> {
     /// Covariance of the first.
