@@ -28,6 +28,9 @@
 //! left that a retired volume would have closed; never is any closed that it would have left. Over
 //! the skeleton, placement may go round by a tenth per retired vertex: under drift a part may be
 //! closed along that way instead of the shortest.
+//!
+//! One thing differs: slivers are judged together with those of retired volumes (`slivers`), which
+//! nobody closes any more. So more slivers may count than if nothing were retired, never fewer.
 
 use geometry::planar::Interval;
 use posegraph::Scope;

@@ -8,19 +8,20 @@
 //! held, and counts until it is closed.
 
 use geometry::Point2;
-use geometry::planar::{Interval, segment_segment_distance};
+use geometry::planar::segment_segment_distance;
 use posegraph::{Placed, Scope};
-use probe::PathId;
 
-use super::pair::{placements, spans_inside};
 use super::retire::MOST_ASKED;
-use super::walls::spans_along_walls;
-use super::{Cause, Chain, Closing, RelativeMap, VolumeState};
+use super::{Chain, RelativeMap, VolumeState};
 use crate::MapProbe;
 
 /// Open parts of two volumes go on where the other ends if they come this near to each other, as a
 /// share of the length of a sliver: placement moves them apart.
 const JOIN_SHARE: f64 = 0.3;
+
+/// Slivers together are more than slivers if they reach so many times as far as one may be long:
+/// around clutter many small ones lie close to each other, and nothing is behind them.
+const TOGETHER: f64 = 2.0;
 
 /// An open part near a sliver.
 struct Piece {
@@ -35,8 +36,11 @@ struct Piece {
 impl RelativeMap {
     /// Looks at the slivers that are new, and holds what has to be.
     ///
-    /// A sliver that is what is left of another needs no second look: what joins it only gets less,
-    /// and where what joined it counted and turned into slivers, those are new.
+    /// A sliver that is what is left of another is not looked at again, nor one that a volume was born
+    /// with: it is met as a part of the cluster when a frontier beside it turns into slivers.
+    ///
+    /// Slivers of retired volumes are taken as they were when these were retired: more may be held
+    /// than if nothing were ever retired, never less.
     ///
     /// Cost: a scope and the open parts around for each of them.
     pub(super) fn hold_slivers(&mut self, probe: &mut dyn MapProbe) {
@@ -65,7 +69,9 @@ impl RelativeMap {
         let seeds: Vec<(Point2, Point2)> = ends(state, sliver).collect();
         let pieces = self.pieces_around(scope.placed(), &seeds);
         let cluster = joined(&pieces, &seeds, JOIN_SHARE * sliver_m);
-        if cluster.iter().any(|piece| piece.counts) || extent_m(&cluster, &seeds) < sliver_m {
+        if cluster.iter().any(|piece| piece.counts)
+            || extent_m(&cluster, &seeds) < TOGETHER * sliver_m
+        {
             return;
         }
         let longest = cluster.iter().max_by(|a, b| {
@@ -86,21 +92,19 @@ impl RelativeMap {
     /// The open parts of all volumes of a scope that come nearer to a sliver than slivers are long,
     /// in the frame of the root.
     fn pieces_around(&self, rows: &[Placed], seeds: &[(Point2, Point2)]) -> Vec<Piece> {
-        let near_m = self.params.sliver_m;
+        let near_m = TOGETHER * self.params.sliver_m;
         let Some(centre) = seeds.first().map(|seed| seed.0) else { return Vec::new() };
         let reach_m = seeds.iter().map(|seed| (seed.1 - centre).norm()).fold(0.0, f64::max);
         let mut pieces = Vec::new();
         for (i, row) in rows.iter().enumerate() {
-            let Some(known) = self.volume(row.vertex).filter(|state| state.has_open()) else {
+            let Some(state) = self.volume(row.vertex).filter(|state| state.has_open()) else {
                 continue;
             };
-            let (disc, radius_m) = known.open_disc;
+            let (disc, radius_m) = state.open_disc;
             let apart_m = (row.root_from_vertex.transform(&disc) - centre).norm();
             if apart_m > radius_m + reach_m + near_m {
                 continue;
             }
-            let updated = known.retired.then(|| self.brought_up_to_date(known, row, rows));
-            let state = updated.as_ref().unwrap_or(known);
             for chain in &state.chains {
                 for (from, to) in ends(state, chain) {
                     let from = row.root_from_vertex.transform(&from);
@@ -121,35 +125,6 @@ impl RelativeMap {
             }
         }
         pieces
-    }
-}
-
-impl RelativeMap {
-    /// A retired volume as it would be had it been compared with all that came since.
-    fn brought_up_to_date(&self, state: &VolumeState, at: &Placed, rows: &[Placed]) -> VolumeState {
-        let mut state = state.clone();
-        let reason = Closing { cause: Cause::Wall, by: at.vertex, step: 0, path: PathId(0) };
-        let (mut poses, mut clipped) = (Vec::new(), Vec::new());
-        let mut spans: Vec<(usize, Interval)> = Vec::new();
-        let mut closed: Vec<Interval> = Vec::new();
-        for row in rows.iter().filter(|row| row.vertex != at.vertex) {
-            let Some(helper) = self.volume(row.vertex) else { continue };
-            let at_from_helper = at.root_from_vertex.inverse_mul(&row.root_from_vertex);
-            let odometry_m = at.odometry_m + row.odometry_m;
-            placements(&at_from_helper, odometry_m, &self.params.certainty, &mut poses);
-            spans.clear();
-            if !helper.blocked {
-                spans_inside(&state, &helper.volume, &poses, &mut clipped, &mut spans);
-            }
-            let wall_m = self.params.wall_closing_m;
-            spans_along_walls(&state, &helper.volume, &at_from_helper, wall_m, &mut spans);
-            for &(edge, span) in &spans {
-                closed.clear();
-                state.ledgers[edge].close(span, &reason, &mut closed);
-            }
-        }
-        state.measure(self.params.sliver_m);
-        state
     }
 }
 

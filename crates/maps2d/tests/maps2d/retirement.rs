@@ -13,10 +13,17 @@ use super::room::{rooms, sensors};
 
 const SEEDS: &str = "proptest-regressions/retirement.txt";
 
-/// What counts is the same, volume by volume.
+/// What counts is the same, volume by volume; where slivers are told apart, more may be held with
+/// retirement (`relative::slivers`), so there the map may not believe that it is done any earlier.
 ///
 /// Lengths are compared, not parts: rounding may split a part.
 fn check_same(with: &RelativeMap, without: &RelativeMap) -> Result<(), TestCaseError> {
+    let told = || format!("{:?} with, {:?} without", with.frontier(), without.frontier());
+    if with.params().sliver_m > 0.0 {
+        let done = |map: &RelativeMap| map.frontier().places == 0;
+        prop_assert!(!done(with) || done(without), "{}", told());
+        return Ok(());
+    }
     for ((vertex, a), (_, b)) in with.volumes().zip(without.volumes()) {
         let told = || format!("{vertex}: {} m with, {} m without", a.open_m, b.open_m);
         prop_assert!((a.open_m - b.open_m).abs() < 1e-6, "{}", told());
