@@ -15,8 +15,8 @@ const REMEMBERED: usize = 8;
 pub(crate) struct Patience {
     /// What was left when the robot was sent before, latest last.
     left: VecDeque<(u64, usize)>,
-    /// Actions that may still be taken while what is left is one of those.
-    actions_left: u32,
+    /// Actions taken while what is left was one of those.
+    actions: u32,
 }
 
 impl Explorer {
@@ -31,15 +31,14 @@ impl Explorer {
                 patience.left.pop_front();
             }
             patience.left.push_back(left);
-            // For every step of the way a turn or two, and as much again for going round.
-            let actions = 60.0 + 6.0 * length_m / params.step_m;
-            patience.actions_left = actions.min(1e6) as u32;
+            patience.actions = 0;
         }
-        if patience.actions_left == 0 {
+        // For every step of the way a turn or two, and as much again for going round.
+        if f64::from(patience.actions) >= 60.0 + 6.0 * length_m / params.step_m {
             *patience = Patience::default();
             return false;
         }
-        patience.actions_left -= 1;
+        patience.actions += 1;
         true
     }
 }
