@@ -1,0 +1,14 @@
+//! Boxes in a tree: which come near a box, a segment, or each other.
+//!
+//! 1. Boxes are split at the median of their middles along the longest axis, until few are left
+//!    (`build.rs`). Ties are broken by index, so the tree depends on nothing but the boxes.
+//! 2. Questions walk the tree with a stack of their own (`walk.rs`); nothing recurses.
+//!
+//! What is found are candidates: boxes that touch, borders included. Never is one missed that does.
+
+mod aabb;
+mod build;
+mod walk;
+
+pub use aabb::Aabb;
+pub use build::Bvh;

@@ -1,0 +1,20 @@
+//! The labelled polyhedron.
+//!
+//! | file | what it holds |
+//! |---|---|
+//! | `label.rs` | what a face is: obstacle or frontier; where it came from |
+//! | `polyhedron.rs` | vertices, faces, labels, origins; checked when made |
+//! | `measure.rs` | volume, area by label, bounds |
+//! | `shapes.rs` | boxes and tetrahedra |
+//! | `weld.rs` | vertices at one place made one |
+
+mod label;
+mod measure;
+mod polyhedron;
+mod shapes;
+mod weld;
+
+pub use label::{Label, Origin};
+pub use measure::AreaByLabel;
+pub use polyhedron::{Face, Polyhedron};
+pub use weld::{Welded, position_classes, weld};
