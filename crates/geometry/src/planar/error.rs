@@ -43,4 +43,16 @@ pub enum PlanarError {
         /// Its second vertex.
         next: usize,
     },
+    /// A corner is not finite, or too far from the others for the lattice of an overlay.
+    #[error(
+        "corner at ({x}, {y}): overlays take finite corners within {reach_m} m of their middle"
+    )]
+    Unsnappable {
+        /// Its x, metres.
+        x: f64,
+        /// Its y, metres.
+        y: f64,
+        /// The limit, metres.
+        reach_m: f64,
+    },
 }

@@ -6,6 +6,7 @@ mod error;
 mod interval;
 mod ledger;
 mod membership;
+pub mod overlay;
 mod segments;
 mod shrink;
 mod star;

@@ -4,6 +4,8 @@
 
 pub mod oracle;
 pub mod places;
+pub mod slabs;
+pub mod views;
 
 use proptest::test_runner::{Config, FileFailurePersistence};
 

@@ -1,0 +1,192 @@
+//! Labelled regions: rings of edges, each with a label and data of the caller's.
+
+use crate::Point2;
+use crate::planar::StarPolygon;
+use crate::predicates::orient;
+
+/// What is at an edge; greater ones win where edges coincide.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Default)]
+pub enum EdgeLabel {
+    /// Free space on both sides.
+    #[default]
+    Free,
+    /// Nobody has looked beyond.
+    Frontier,
+    /// Something solid.
+    Obstacle,
+}
+
+/// What an edge carries.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
+pub struct RingEdge<T> {
+    /// What is there.
+    pub label: EdgeLabel,
+    /// Whatever the caller wants to know of it; goes with every piece of the edge.
+    pub data: T,
+}
+
+/// A closed chain of edges; the inside of the region lies to the left.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Ring<T> {
+    /// The corners, metres.
+    pub points: Vec<Point2>,
+    /// The edge from each corner to the next, cyclically; as many as corners.
+    pub edges: Vec<RingEdge<T>>,
+}
+
+impl<T> Ring<T> {
+    /// Twice the signed area, square metres: positive for an outer ring, negative for a hole.
+    pub fn twice_area_m2(&self) -> f64 {
+        let Some(first) = self.points.first() else { return 0.0 };
+        // From a corner of its own, so that nothing cancels far from the origin.
+        self.points.windows(2).map(|pair| (pair[0] - first).perp(&(pair[1] - first))).sum()
+    }
+
+    /// Whether it bounds a hole.
+    pub fn is_hole(&self) -> bool {
+        self.twice_area_m2() < 0.0
+    }
+
+    /// The corner after corner `i`, cyclically.
+    pub fn next(&self, i: usize) -> usize {
+        if i + 1 == self.points.len() { 0 } else { i + 1 }
+    }
+}
+
+/// One edge of a region.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct RegionEdge<T> {
+    /// Which ring.
+    pub ring: usize,
+    /// Which edge of it.
+    pub edge: usize,
+    /// Where it starts.
+    pub from: Point2,
+    /// Where it ends; the inside lies to the left.
+    pub to: Point2,
+    /// What is there.
+    pub label: EdgeLabel,
+    /// The caller's data.
+    pub data: T,
+}
+
+/// A region of the plane: outer rings counter-clockwise, each followed by its holes, clockwise.
+///
+/// Rings may touch in points. What an operation returns holds these rules; what it is given may
+/// overlap itself, and counts as inside where rings wind around it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Region<T> {
+    /// The rings.
+    pub rings: Vec<Ring<T>>,
+}
+
+impl<T> Default for Region<T> {
+    fn default() -> Self {
+        Self { rings: Vec::new() }
+    }
+}
+
+impl<T: Copy> Region<T> {
+    /// The region inside one ring, given by corners in counter-clockwise order, each with the edge
+    /// that starts there.
+    pub fn from_ring(corners: impl IntoIterator<Item = (Point2, RingEdge<T>)>) -> Self {
+        let (points, edges): (Vec<_>, Vec<_>) = corners.into_iter().unzip();
+        Self { rings: vec![Ring { points, edges }] }
+    }
+
+    /// The region inside a view, placed by `place`, each boundary edge with what `edge` says of it.
+    ///
+    /// `edge` is asked with the number of the edge in boundary order.
+    pub fn from_view(
+        view: &StarPolygon,
+        place: impl Fn(&Point2) -> Point2,
+        edge: impl Fn(crate::planar::BoundaryEdge) -> RingEdge<T>,
+    ) -> Self {
+        if view.is_empty() {
+            return Self::default();
+        }
+        Self::from_ring(view.boundary().map(|side| (place(&side.from), edge(side))))
+    }
+
+    /// Whether there is no ring.
+    pub fn is_empty(&self) -> bool {
+        self.rings.is_empty()
+    }
+
+    /// The area, square metres.
+    pub fn area_m2(&self) -> f64 {
+        0.5 * self.rings.iter().map(Ring::twice_area_m2).sum::<f64>()
+    }
+
+    /// All edges, ring by ring.
+    pub fn edges(&self) -> impl Iterator<Item = RegionEdge<T>> + '_ {
+        self.rings.iter().enumerate().flat_map(|(index, ring)| {
+            ring.edges.iter().enumerate().map(move |(i, edge)| RegionEdge {
+                ring: index,
+                edge: i,
+                from: ring.points[i],
+                to: ring.points[ring.next(i)],
+                label: edge.label,
+                data: edge.data,
+            })
+        })
+    }
+
+    /// The number of edges.
+    pub fn edge_count(&self) -> usize {
+        self.rings.iter().map(|ring| ring.edges.len()).sum()
+    }
+
+    /// Whether a point is inside; on the boundary it may go either way. Cost: the edges.
+    pub fn contains(&self, point: &Point2) -> bool {
+        let mut winding = 0;
+        for ring in &self.rings {
+            for (i, from) in ring.points.iter().enumerate() {
+                let to = &ring.points[ring.next(i)];
+                if (from.y <= point.y) == (to.y <= point.y) {
+                    continue;
+                }
+                let left = orient(from, to, point);
+                if from.y <= point.y && left > 0.0 {
+                    winding += 1;
+                } else if from.y > point.y && left < 0.0 {
+                    winding -= 1;
+                }
+            }
+        }
+        winding != 0
+    }
+
+    /// The rings in groups: an outer ring and its holes. In the order of the rings.
+    pub fn sheets(&self) -> Vec<std::ops::Range<usize>> {
+        let mut sheets: Vec<std::ops::Range<usize>> = Vec::new();
+        for (i, ring) in self.rings.iter().enumerate() {
+            match sheets.last_mut() {
+                Some(last) if ring.is_hole() => last.end = i + 1,
+                _ => sheets.push(i..i + 1),
+            }
+        }
+        sheets
+    }
+
+    /// The same region with other data on its edges.
+    pub fn map<U>(&self, mut data: impl FnMut(RegionEdge<T>) -> RingEdge<U>) -> Region<U> {
+        let mut rings: Vec<Ring<U>> = self
+            .rings
+            .iter()
+            .map(|ring| Ring { points: ring.points.clone(), edges: Vec::new() })
+            .collect();
+        for edge in self.edges() {
+            let ring = edge.ring;
+            let changed = data(edge);
+            rings[ring].edges.push(changed);
+        }
+        Region { rings }
+    }
+
+    /// Memory held on the heap, bytes.
+    pub fn heap_bytes(&self) -> usize {
+        let edge = size_of::<Point2>() + size_of::<RingEdge<T>>();
+        self.rings.len() * size_of::<Ring<T>>() + self.edge_count() * edge
+    }
+}
