@@ -4,21 +4,19 @@
 //! left is the work, without what else the machine did at that moment. Long drives and recordings
 //! are measured once; there the medians count.
 //!
-//! Measured on two shared cores, all busy, so take ratios before times:
+//! Measured in one run on two cores with nothing else to do:
 //!
 //! | microseconds | relative | grid |
 //! |---|---|---|
-//! | exploring the maze at alpha 1, 10 seeds: median, p99, max | 27, 351, 931 | 19, 61, 82 |
-//! | ever new ground: median of the second and the last tenth | 16, 16 (1.02) | 14, 15 (1.02) |
-//! | round and round: median of tenths 1, 2, 3, 6, 9, 10 | 55, 82, 76, 80, 88, 87 | 16 to 19 |
-//! | round and round: greatest p99 of a tenth | 386 | 46 |
-//! | recording `off`, added per step: median, p99 | 0.0, 0.2 | 0.0, 0.4 |
-//! | recording `summary` | 11, 104 | 2, 41 |
-//! | recording `full` | 31, 2225 | 5, 24 |
+//! | exploring the maze at alpha 1, 10 seeds: median, p99, max | 28, 374, 985 | 22, 66, 92 |
+//! | ever new ground: median of the second and the last tenth | 28, 22 (0.78) | 24, 20 (0.85) |
+//! | round and round: median of tenths 1, 2, 3, 6, 9, 10 | 70, 106, 119, 92, 118, 98 | 18 to 24 |
+//! | round and round: greatest p99 of a tenth | 486 | 57 |
+//! | recording `off`, added per step: median, p99 | 0.1, 0.4 | 0.1, 0.3 |
+//! | recording `summary` | 15, 98 | 4, 44 |
+//! | recording `full` | 44, 216 | 8, 79 |
 //!
-//! The round-and-round row of the relative map is processor time at alpha 1; at alpha 0 the tenths lie
-//! between 60 and 91, but for the second with 155. In the last tenth 372 of 20,000 volumes take
-//! part in comparisons.
+//! Round and round, 372 of 20,000 volumes take part in comparisons in the last tenth.
 //!
 //! `-- --quick` measures less; `-- --poses N` sets the length of the long drives.
 

@@ -3,7 +3,6 @@
 use geometry::Point2;
 use sensing::Robot;
 
-use super::approach::towards;
 use crate::{ExploreProbe, Explorer, GiveUp, RapidParams};
 
 impl Explorer {
@@ -21,16 +20,12 @@ impl Explorer {
                 if distance_m < params.arrival_m {
                     continue;
                 }
-                // Unseen directions are looked at first: the map may believe in them wrongly.
-                let motion = towards(0, *point, params.step_m);
                 let whole = self.maps[0].clearance(&self.standing, point);
                 let near = distance_m <= params.step_m || whole.keeps(clearance_m);
                 if !near {
                     continue;
                 }
-                let Some(motion) =
-                    self.allowed(motion.candidate, *point, clearance_m, level, params)
-                else {
+                let Some(motion) = self.allowed(0, *point, clearance_m, level, params) else {
                     continue;
                 };
                 if motion.heading_rad.abs() > params.turn_tolerance_rad

@@ -32,8 +32,7 @@ impl Explorer {
         params: &RapidParams,
         probe: &mut dyn ExploreProbe,
     ) {
-        let length_m = length_m(&route);
-        probe.emit(PlannerEvent::RoutePlanned { standing: self.standing, route: &route, length_m });
+        let length_m = self.tell_route(&route, probe);
         match route {
             Route::Repeat(mut legs) => {
                 legs.reverse();
@@ -101,16 +100,21 @@ impl Explorer {
         params: &RapidParams,
         probe: &mut dyn ExploreProbe,
     ) {
-        let route = Route::Repeat(way.clone());
-        let length_m = length_m(&route);
-        probe.emit(PlannerEvent::RoutePlanned { standing: self.standing, route: &route, length_m });
+        self.tell_route(&Route::Repeat(way.clone()), probe);
         way.reverse();
         self.rapid.way = way;
         self.follow_way(robot, params, probe);
     }
+
+    /// Tells the probe of a planned way; returns its length, metres.
+    fn tell_route(&self, route: &Route, probe: &mut dyn ExploreProbe) -> f64 {
+        let length_m = length_m(route);
+        probe.emit(PlannerEvent::RoutePlanned { standing: self.standing, route, length_m });
+        length_m
+    }
 }
 
-pub(super) fn length_m(route: &Route) -> f64 {
+fn length_m(route: &Route) -> f64 {
     match route {
         Route::Repeat(legs) => legs.iter().map(|(_, length_m)| length_m).sum(),
         Route::Drive(points) => {

@@ -145,11 +145,9 @@ impl Run {
         let parts: Vec<(Point2, Point2, f64)> = chain
             .parts
             .iter()
-            .filter(|part| state.volume.frontier[part.edge].spoke == spoke)
-            .map(|part| {
-                let edge = &state.volume.frontier[part.edge];
-                (edge.at(part.span.from), edge.at(part.span.to), part.length_m)
-            })
+            .zip(chain.segments(&state.volume))
+            .filter(|(part, _)| state.volume.frontier[part.edge].spoke == spoke)
+            .map(|(part, (from, to))| (from, to, part.length_m))
             .collect();
         let length_m = parts.iter().map(|part| part.2).sum();
         Self { parts, length_m }

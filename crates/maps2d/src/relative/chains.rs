@@ -1,5 +1,6 @@
 //! Frontier that hangs together: open parts of neighbouring edges, measured as one.
 
+use geometry::Point2;
 use geometry::planar::{EdgeLedger, Interval};
 
 use super::Closing;
@@ -36,6 +37,17 @@ impl Chain {
     pub(crate) fn holds(&self, edge: usize, at: f64) -> bool {
         let on = |part: &ChainPart| part.edge == edge && part.span.from <= at && at <= part.span.to;
         self.parts.iter().any(on)
+    }
+
+    /// The ends of its parts, in the frame of its volume, in boundary order.
+    pub(crate) fn segments<'a>(
+        &'a self,
+        volume: &'a LocalVolume,
+    ) -> impl Iterator<Item = (Point2, Point2)> + 'a {
+        self.parts.iter().map(|part| {
+            let edge = &volume.frontier[part.edge];
+            (edge.at(part.span.from), edge.at(part.span.to))
+        })
     }
 
     fn extend(&mut self, parts: Vec<ChainPart>) {

@@ -11,8 +11,8 @@ use geometry::Point2;
 use geometry::planar::segment_segment_distance;
 use posegraph::{Placed, Scope};
 
+use super::RelativeMap;
 use super::retire::MOST_ASKED;
-use super::{Chain, RelativeMap, VolumeState};
 use crate::MapProbe;
 
 /// Open parts of two volumes go on where the other ends if they come this near to each other, as a
@@ -66,7 +66,7 @@ impl RelativeMap {
         let Some(state) = scope.root().and_then(|vertex| self.volume(vertex)) else { return };
         let found = state.chains.iter().find(|chain| !chain.counts && chain.holds(edge, at));
         let Some(sliver) = found else { return };
-        let seeds: Vec<(Point2, Point2)> = ends(state, sliver).collect();
+        let seeds: Vec<(Point2, Point2)> = sliver.segments(&state.volume).collect();
         let pieces = self.pieces_around(scope.placed(), &seeds);
         let cluster = joined(&pieces, &seeds, JOIN_SHARE * sliver_m);
         if cluster.iter().any(|piece| piece.counts)
@@ -82,7 +82,7 @@ impl RelativeMap {
         });
         let Some(piece) = longest else { return };
         let row = scope.placed()[piece.row];
-        let middle = row.root_from_vertex.inverse_transform(&middle_of(piece));
+        let middle = row.root_from_vertex.inverse_transform(&middle(&piece.from, &piece.to));
         let Some(holder) = self.volumes[row.vertex].as_deref_mut() else { return };
         holder.held.push(middle);
         self.remeasure(row.vertex);
@@ -106,10 +106,10 @@ impl RelativeMap {
                 continue;
             }
             for chain in &state.chains {
-                for (from, to) in ends(state, chain) {
+                for (from, to) in chain.segments(&state.volume) {
                     let from = row.root_from_vertex.transform(&from);
                     let to = row.root_from_vertex.transform(&to);
-                    let middle = from + (to - from) * 0.5;
+                    let middle = middle(&from, &to);
                     let half_m = 0.5 * (to - from).norm();
                     if (middle - centre).norm() > half_m + reach_m + near_m {
                         continue;
@@ -126,17 +126,6 @@ impl RelativeMap {
         }
         pieces
     }
-}
-
-/// The ends of the parts of a chain, in the frame of its volume.
-fn ends<'a>(
-    state: &'a VolumeState,
-    chain: &'a Chain,
-) -> impl Iterator<Item = (Point2, Point2)> + 'a {
-    chain.parts.iter().map(|part| {
-        let edge = &state.volume.frontier[part.edge];
-        (edge.at(part.span.from), edge.at(part.span.to))
-    })
 }
 
 /// The pieces that hang together with the seeds, one joining the next.
@@ -168,6 +157,6 @@ fn extent_m(cluster: &[&Piece], seeds: &[(Point2, Point2)]) -> f64 {
     (high - low).norm()
 }
 
-fn middle_of(piece: &Piece) -> Point2 {
-    Point2::from((piece.from.coords + piece.to.coords) * 0.5)
+fn middle(from: &Point2, to: &Point2) -> Point2 {
+    Point2::from((from.coords + to.coords) * 0.5)
 }

@@ -116,10 +116,8 @@ impl VolumeState {
 
     fn disc_around_open(&self) -> (Point2, f64) {
         let ends = || {
-            self.chains.iter().flat_map(|chain| &chain.parts).flat_map(|part| {
-                let edge = &self.volume.frontier[part.edge];
-                [edge.at(part.span.from), edge.at(part.span.to)]
-            })
+            let segments = self.chains.iter().flat_map(|chain| chain.segments(&self.volume));
+            segments.flat_map(|(from, to)| [from, to])
         };
         let (mut low, mut high) =
             (Point2::new(f64::MAX, f64::MAX), Point2::new(f64::MIN, f64::MIN));
@@ -158,9 +156,7 @@ impl VolumeState {
 
 /// Whether a chain lies about where a sliver is held.
 fn is_near(chain: &Chain, volume: &LocalVolume, at: &Point2, sliver_m: f64) -> bool {
-    chain.parts.iter().any(|part| {
-        let edge = &volume.frontier[part.edge];
-        let (from, to) = (edge.at(part.span.from), edge.at(part.span.to));
-        point_segment_distance(at, &from, &to) <= 0.5 * sliver_m
-    })
+    chain
+        .segments(volume)
+        .any(|(from, to)| point_segment_distance(at, &from, &to) <= 0.5 * sliver_m)
 }
