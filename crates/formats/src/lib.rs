@@ -1,14 +1,17 @@
 #![doc = include_str!("../README.md")]
 
 pub mod map_yaml;
+pub mod mesh;
 pub mod moving_ai;
 pub mod pgm;
+pub mod ply;
 pub mod png;
 pub mod pose_graph;
 pub mod tum;
 
 mod error;
 mod gray;
+mod lexer;
 mod lines;
 mod sniff;
 

@@ -62,4 +62,20 @@ pub enum SolidError {
         /// The vertex that it names twice.
         vertex: u32,
     },
+    /// An operand of a boolean is no closed 2-manifold.
+    #[error("the {which} operand is no closed 2-manifold: {defect}")]
+    Operand {
+        /// Which operand.
+        which: String,
+        /// The first thing that is wrong with it.
+        defect: String,
+    },
+    /// The engine failed at sound operands.
+    #[error("the engine failed at the {operation}: {reason}")]
+    Engine {
+        /// What it was doing.
+        operation: &'static str,
+        /// Its own words.
+        reason: String,
+    },
 }

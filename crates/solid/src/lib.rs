@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+pub mod boolean;
 pub mod bvh;
 pub mod mesh;
 pub mod predicates;
@@ -8,6 +9,7 @@ pub mod validity;
 
 mod error;
 
+pub use boolean::{BooleanEvent, Operation, boolean, boolean_with, jittered, unite, unite_with};
 pub use error::SolidError;
 pub use mesh::{AreaByLabel, Face, Label, Origin, Polyhedron};
 pub use query::{Hit, Side, Solid};

@@ -77,7 +77,8 @@ fn welding_joins_places_and_drops_what_is_unused() {
     assert_eq!(position_classes(&vertices), [0, 1, 2, 3, 1, 5]);
     let faces = vec![[1, 3, 2], [4, 2, 5], [1, 4, 5]];
     let labels = vec![Label::Obstacle, Label::Frontier, Label::Frontier];
-    let mesh = Polyhedron::try_new(vertices, faces, labels).unwrap().as_view(3);
+    let mesh =
+        Polyhedron::try_new(vertices, faces, labels).expect("indices are in range").as_view(3);
     let welded = weld(&mesh);
     assert_eq!(welded.collapsed, [2]);
     assert_eq!(welded.mesh.faces(), [[0, 1, 2], [0, 2, 3]]);

@@ -19,7 +19,7 @@ fn hollow() -> Polyhedron {
         .chain(inner.faces().iter().map(|face| face.map(|v| v + 8)))
         .collect();
     let labels = outer.labels().iter().chain(inner.labels()).copied().collect();
-    Polyhedron::try_new(vertices, faces, labels).unwrap()
+    Polyhedron::try_new(vertices, faces, labels).expect("indices are in range")
 }
 
 /// Where a point lies, from coordinates alone.

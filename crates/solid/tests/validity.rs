@@ -19,7 +19,7 @@ fn together(parts: &[Polyhedron]) -> Polyhedron {
         faces.extend(part.faces().iter().map(|face| face.map(|v| v + first)));
         labels.extend_from_slice(part.labels());
     }
-    Polyhedron::try_new(vertices, faces, labels).unwrap()
+    Polyhedron::try_new(vertices, faces, labels).expect("indices are in range")
 }
 
 fn changed(
@@ -29,7 +29,7 @@ fn changed(
     let (mut vertices, mut faces, _, _) = mesh.clone().into_parts();
     change(&mut vertices, &mut faces);
     let labels = vec![Label::Obstacle; faces.len()];
-    Polyhedron::try_new(vertices, faces, labels).unwrap()
+    Polyhedron::try_new(vertices, faces, labels).expect("indices are in range")
 }
 
 #[test]

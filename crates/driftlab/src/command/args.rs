@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use super::graph::GraphArgs;
+use super::mesh::MeshArgs;
 
 const VERSION: &str = if env!("DRIFTLAB_GIT_HASH").is_empty() {
     env!("CARGO_PKG_VERSION")
@@ -78,6 +79,8 @@ pub(super) enum Command {
     Sweep(SweepArgs),
     /// Pose-graph files: tell, optimise, compare, convert, make up
     Graph(GraphArgs),
+    /// Meshes: tell, combine
+    Mesh(MeshArgs),
     /// Tell what a recording holds: entities, timelines, rows, events, final metrics
     Inspect(InspectArgs),
     /// Open a recording in the Rerun viewer

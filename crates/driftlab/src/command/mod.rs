@@ -7,8 +7,10 @@ mod args;
 mod completions;
 mod config;
 mod failure;
+mod files;
 mod graph;
 mod inspect;
+mod mesh;
 mod out;
 mod progress;
 mod run;
@@ -31,6 +33,7 @@ pub fn main() -> ExitCode {
         Command::Run(args) => run::run(args, &out),
         Command::Sweep(args) => sweep::sweep(args, &out),
         Command::Graph(args) => graph::graph(args, &out),
+        Command::Mesh(args) => mesh::mesh(args, &out),
         Command::Inspect(args) => inspect::inspect(args, &out),
         Command::View(args) => view::view(args, &out),
         Command::Config(args) => config::config(args, &out),

@@ -42,7 +42,6 @@
 mod assemble;
 mod bits;
 mod file;
-mod lexer;
 mod read;
 mod records;
 mod report;
@@ -55,7 +54,7 @@ pub use report::{GraphFileReport, GraphWarning, NORM_TOLERANCE, UnknownTag, Warn
 pub use tags::GraphFormat;
 pub use write::{write, write_plane, write_space};
 
+pub(crate) use crate::lexer::Lexer;
 pub(crate) use bits::push_number;
-pub(crate) use lexer::Lexer;
 pub(crate) use read::first_tag;
 pub(crate) use records::quaternion;

@@ -5,13 +5,13 @@ use pose::{Se2, Se3};
 use posegraph::Factor;
 
 use super::assemble::assemble;
-use super::lexer::Lexer;
 use super::records::Record;
 use super::report::{GraphFileReport, Tally, UnknownTag, WarningKind};
 use super::tags::{self, GraphFormat, Tag};
 use super::{AnyGraph, GraphFile};
 use crate::FormatError;
 use crate::error::quote;
+use crate::lexer::Lexer;
 
 /// Reads a pose graph from the bytes of a g2o or TORO file, in two or three dimensions.
 ///

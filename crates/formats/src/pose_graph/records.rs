@@ -7,10 +7,10 @@ use nalgebra::{Matrix2, Matrix3, Quaternion, SMatrix, UnitQuaternion, Vector3, V
 use pose::{Se2, Se3, wrap_angle};
 use posegraph::Manifold;
 
-use super::lexer::Lexer;
 use super::report::NORM_TOLERANCE;
 use super::tags::GraphFormat;
 use crate::FormatError;
+use crate::lexer::Lexer;
 
 /// A pose as a line gives it, and the norm of its quaternion where that was put right.
 pub(super) type Read<P> = (P, Option<f64>);

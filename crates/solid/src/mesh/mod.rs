@@ -6,14 +6,17 @@
 //! | `polyhedron.rs` | vertices, faces, labels, origins; checked when made |
 //! | `measure.rs` | volume, area by label, bounds |
 //! | `shapes.rs` | boxes and tetrahedra |
+//! | `facet.rs` | plane polygons, with holes, cut into triangles |
 //! | `weld.rs` | vertices at one place made one |
 
+mod facet;
 mod label;
 mod measure;
 mod polyhedron;
 mod shapes;
 mod weld;
 
+pub use facet::triangulate_facet;
 pub use label::{Label, Origin};
 pub use measure::AreaByLabel;
 pub use polyhedron::{Face, Polyhedron};

@@ -10,9 +10,11 @@
 //! surface decides.
 
 mod containment;
+mod distance;
 mod ray;
 mod solid;
 
 pub use containment::Side;
+pub use distance::{closest_on_triangle, distance_to_triangle};
 pub use ray::Hit;
 pub use solid::Solid;

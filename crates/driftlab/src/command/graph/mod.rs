@@ -6,7 +6,7 @@ mod convert;
 mod generate;
 mod info;
 mod input;
-mod numbers;
+pub(super) mod numbers;
 mod optimize;
 mod output;
 mod start;

@@ -1,7 +1,7 @@
 //! Numbers for people.
 
 /// Six significant digits, plain where that is short.
-pub(super) fn shown(value: f64) -> String {
+pub(in crate::command) fn shown(value: f64) -> String {
     let size = value.abs();
     if value == 0.0 || !value.is_finite() {
         return format!("{value}");
@@ -19,7 +19,7 @@ pub(super) fn shown(value: f64) -> String {
 }
 
 /// Names and values under each other, the values in one column.
-pub(super) fn listed(rows: &[(&str, String)]) -> String {
+pub(in crate::command) fn listed(rows: &[(&str, String)]) -> String {
     let width = rows.iter().map(|(name, _)| name.chars().count()).max().unwrap_or(0);
     rows.iter().map(|(name, value)| format!("{name:width$}  {value}\n")).collect()
 }

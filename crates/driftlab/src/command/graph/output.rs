@@ -1,6 +1,5 @@
 //! Writing a file whole or not at all.
 
-use std::fs;
 use std::path::{Path, PathBuf};
 
 use anyhow::anyhow;
@@ -8,6 +7,8 @@ use formats::pose_graph::{self, AnyGraph, GraphFormat};
 use formats::tum;
 
 use super::super::failure::Failure;
+pub(super) use super::super::files::free;
+use super::super::files::write_whole;
 use super::args::FileFormat;
 use super::input::trajectory_of;
 
@@ -50,33 +51,6 @@ impl Target {
 
     /// Writes under a temporary name beside the file, then renames.
     pub fn write_bytes(&self, bytes: &[u8]) -> Result<(), Failure> {
-        let name = self.path.file_name().unwrap_or_default().to_string_lossy();
-        let waiting = self.path.with_file_name(format!(".{name}.{}.partial", std::process::id()));
-        let refused = |path: &Path| {
-            let path = path.display().to_string();
-            move |error: std::io::Error| Failure::Work(anyhow!("{path}: {error}"))
-        };
-        let written = fs::write(&waiting, bytes).map_err(refused(&self.path));
-        let renamed =
-            written.and_then(|()| fs::rename(&waiting, &self.path).map_err(refused(&self.path)));
-        if renamed.is_err() {
-            // It may not even be there: the write itself can have failed.
-            let _ = fs::remove_file(&waiting);
-        }
-        renamed
+        write_whole(&self.path, bytes)
     }
-}
-
-/// Refuses to replace a file unless forced to.
-pub(super) fn free(path: &Path, force: bool) -> Result<(), Failure> {
-    if path.is_dir() {
-        return Err(Failure::Input(anyhow!("{}: found a folder, expected a file", path.display())));
-    }
-    if path.exists() && !force {
-        return Err(Failure::Input(anyhow!(
-            "{}: the file exists already; --force replaces it",
-            path.display()
-        )));
-    }
-    Ok(())
 }

@@ -65,6 +65,28 @@ impl<'a> Lexer<'a> {
         }
     }
 
+    /// Goes to the next line even if it is empty; whether there is one.
+    pub fn next_raw_line(&mut self) -> bool {
+        if self.line > 0 {
+            let rest = self.bytes.get(self.at..).unwrap_or_default();
+            match rest.iter().position(|&byte| byte == b'\n') {
+                Some(offset) => self.at += offset + 1,
+                None => {
+                    self.at = self.bytes.len();
+                    return false;
+                }
+            }
+        }
+        self.line += 1;
+        self.line_start = self.at;
+        true
+    }
+
+    /// Bytes that are left of the file.
+    pub fn left(&self) -> usize {
+        self.bytes.len() - self.at
+    }
+
     /// Passes over blanks; whether nothing but a comment is left of the line.
     pub fn at_end_of_line(&mut self) -> bool {
         loop {
@@ -111,6 +133,24 @@ impl<'a> Lexer<'a> {
                 Ok(value)
             }
             _ => Err(self.unexpected(&format!("{expected}, a finite number"))),
+        }
+    }
+
+    /// The next word as a number that need not be finite.
+    ///
+    /// # Errors
+    /// [`FormatError::Unexpected`] where the line ends, or stands no number.
+    pub fn any_float(&mut self, expected: &str) -> Result<f64, FormatError> {
+        if self.at_end_of_line() {
+            return Err(self.unexpected(expected));
+        }
+        let rest = self.bytes.get(self.at..).unwrap_or_default();
+        match fast_float2::parse_partial::<f64, _>(rest) {
+            Ok((value, length)) if rest.get(length).is_none_or(|&byte| ends_word(byte)) => {
+                self.at += length;
+                Ok(value)
+            }
+            _ => Err(self.unexpected(expected)),
         }
     }
 

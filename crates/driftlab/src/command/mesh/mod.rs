@@ -1,0 +1,23 @@
+//! `driftlab mesh`: meshes, told about and combined.
+//!
+//! One file for each subcommand; `input.rs` and `output.rs` read and write for all of them, `told.rs`
+//! says what is said of every mesh.
+
+mod args;
+mod info;
+mod input;
+#[expect(dead_code, reason = "for the commands that write a mesh")]
+mod output;
+mod told;
+
+pub(super) use args::MeshArgs;
+use args::MeshCommand;
+
+use super::failure::Failure;
+use super::out::Out;
+
+pub(super) fn mesh(args: &MeshArgs, out: &Out) -> Result<(), Failure> {
+    match &args.command {
+        MeshCommand::Info(args) => info::info(args, out),
+    }
+}
