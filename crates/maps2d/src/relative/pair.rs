@@ -214,8 +214,9 @@ pub(super) fn spans_inside(
     clipped: &mut Vec<Interval>,
     spans: &mut Vec<(usize, Interval)>,
 ) {
-    let reach_m = state.volume.radius_m() + other.inner.outer_radius();
-    if placements[0].translation.norm_squared() > reach_m * reach_m {
+    let (centre, open_m) = state.open_disc;
+    let reach_m = open_m + other.inner.outer_radius() + 1e-6;
+    if placements[0].transform(&centre).coords.norm_squared() > reach_m * reach_m {
         return;
     }
     let mut common: Vec<Interval> = Vec::new();

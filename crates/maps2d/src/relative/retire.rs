@@ -105,15 +105,31 @@ impl RelativeMap {
     }
 
     fn is_missed_by(&mut self, other: VertexId, vertex: VertexId) -> bool {
-        let Some(state) = self.volumes[other].as_deref() else { return false };
-        if state.retired {
-            return false;
+        // Tried on the volume itself, which is taken out of the map meanwhile: a copy of all that
+        // was measured there would cost more than the sum.
+        let Some(mut state) = self.volumes[other].take() else { return false };
+        let before = (!state.retired).then(|| state.ledgers.clone());
+        let is_missed = before.is_some() && self.counts_more_without(&mut state, other, vertex);
+        if let Some(before) = before {
+            state.ledgers = before;
+            state.measure(self.params.sliver_m);
         }
+        self.volumes[other] = Some(state);
+        is_missed
+    }
+
+    /// Opens what `vertex` closed in a volume that was taken out of the map, closes what the other
+    /// active volumes in scope account for, and tells whether more counts than before.
+    fn counts_more_without(
+        &mut self,
+        state: &mut VolumeState,
+        of: VertexId,
+        vertex: VertexId,
+    ) -> bool {
         let counted_m = state.open_m;
-        let mut without = state.clone();
         let mut opened: Vec<Interval> = Vec::new();
         let mut reason: Option<Closing> = None;
-        for ledger in &mut without.ledgers {
+        for ledger in &mut state.ledgers {
             let relied = |closing: &Closing| {
                 let relies = closing.by == vertex && closing.cause != Cause::Unreachable;
                 reason = relies.then_some(*closing).or(reason);
@@ -122,7 +138,12 @@ impl RelativeMap {
             ledger.reopen(relied, &mut opened);
         }
         let Some(reason) = reason else { return false };
-        self.take_scope(other, &mut probe::Off);
+        state.measure(self.params.sliver_m);
+        // Closing never makes more of it count.
+        if state.open_m <= counted_m {
+            return false;
+        }
+        self.take_scope(of, &mut probe::Off);
         let (mut poses, mut clipped) = (Vec::new(), Vec::new());
         let mut spans: Vec<(usize, Interval)> = Vec::new();
         for row in 1..self.scope.placed().len() as u32 {
@@ -131,21 +152,21 @@ impl RelativeMap {
                 continue;
             }
             let Some(helper) = self.volume(placed.vertex) else { continue };
-            let other_from_helper = placed.root_from_vertex;
-            placements(&other_from_helper, placed.odometry_m, &self.params.certainty, &mut poses);
+            let of_from_helper = placed.root_from_vertex;
+            placements(&of_from_helper, placed.odometry_m, &self.params.certainty, &mut poses);
             spans.clear();
             if !helper.blocked {
-                spans_inside(&without, &helper.volume, &poses, &mut clipped, &mut spans);
+                spans_inside(state, &helper.volume, &poses, &mut clipped, &mut spans);
             }
             let wall_m = self.params.wall_closing_m;
-            spans_along_walls(&without, &helper.volume, &other_from_helper, wall_m, &mut spans);
+            spans_along_walls(state, &helper.volume, &of_from_helper, wall_m, &mut spans);
             for &(edge, span) in &spans {
                 opened.clear();
-                without.ledgers[edge].close(span, &reason, &mut opened);
+                state.ledgers[edge].close(span, &reason, &mut opened);
             }
         }
-        without.measure(self.params.sliver_m);
-        without.open_m > counted_m
+        state.measure(self.params.sliver_m);
+        state.open_m > counted_m
     }
 
     /// A retired volume takes part again.

@@ -8,10 +8,16 @@ use pose::Se2;
 use super::VolumeState;
 use crate::volume::LocalVolume;
 
+/// By how much rounding may move a point, metres: many times too much.
+const ROUNDING_M: f64 = 1e-6;
+
 /// The stretches of open frontier of `state` within `radius_m` of what is solid in `other`.
 ///
 /// Under drift the frontier bits that touch a wall are never quite inside another volume; without
 /// this rule they would stay for ever. Not in \[ISRR19\], which leaves it open.
+///
+/// The disc around what is open has to be that of the ledgers. Cost: the solid parts of `other`, and
+/// for those near the disc the open edges.
 pub(super) fn spans_along_walls(
     state: &VolumeState,
     other: &LocalVolume,
@@ -19,11 +25,23 @@ pub(super) fn spans_along_walls(
     radius_m: f64,
     spans: &mut Vec<(usize, Interval)>,
 ) {
-    let reach_m = state.volume.radius_m() + other.radius_m() + radius_m;
-    if radius_m <= 0.0 || at_from_other.translation.norm_squared() > reach_m * reach_m {
+    if radius_m <= 0.0 {
         return;
     }
     let other_from_at = at_from_other.inverse();
+    // Walls far from all that is open close nothing: only the rest is held against every edge.
+    let (centre, open_m) = state.open_disc;
+    let centre = other_from_at.transform(&centre);
+    let around = Box2::around(&centre, &centre, open_m + radius_m + ROUNDING_M);
+    if around.distance_squared_to_origin() > other.radius_m() * other.radius_m() {
+        return;
+    }
+    let posts = other.posts.iter().map(|post| (*post, *post));
+    let solid = other.obstacles.iter().map(|wall| (wall.from, wall.to)).chain(posts);
+    let solid: Vec<(Point2, Point2)> = solid.filter(|(a, b)| around.meets(a, b)).collect();
+    if solid.is_empty() {
+        return;
+    }
     for (edge, ledger) in state.ledgers.iter().enumerate() {
         if ledger.is_closed() {
             continue;
@@ -32,19 +50,9 @@ pub(super) fn spans_along_walls(
         let from = other_from_at.transform(&frontier.from);
         let to = other_from_at.transform(&frontier.to);
         let near = Box2::around(&from, &to, radius_m);
-        if near.distance_squared_to_origin() > other.radius_m() * other.radius_m() {
-            continue;
-        }
-        for wall in &other.obstacles {
-            if near.meets(&wall.from, &wall.to)
-                && let Some(span) = near_segment(&from, &to, &wall.from, &wall.to, radius_m)
-            {
-                spans.push((edge, span));
-            }
-        }
-        for post in &other.posts {
-            if near.meets(post, post)
-                && let Some(span) = near_segment(&from, &to, post, post, radius_m)
+        for (a, b) in &solid {
+            if near.meets(a, b)
+                && let Some(span) = near_segment(&from, &to, a, b, radius_m)
             {
                 spans.push((edge, span));
             }

@@ -153,8 +153,9 @@ impl LocalVolume {
         }
         stops.sort_by(|a, b| a.0.total_cmp(&b.0));
         stops.into_iter().map(|(_, stop)| stop).find(|stop| {
-            self.motion_clearance(stop).keeps(clearance_m)
-                && self.keeps_clear(stop, goal_in_anchor, clearance_m)
+            // Few see the goal, and the clearance from the start is the dear one.
+            self.keeps_clear(stop, goal_in_anchor, clearance_m)
+                && self.motion_clearance(stop).keeps(clearance_m)
         })
     }
 
