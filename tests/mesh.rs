@@ -63,3 +63,64 @@ fn info_names_what_is_wrong_and_where() {
     let message = String::from_utf8_lossy(&output.stderr);
     assert!(message.contains("bad.off: line 4, column 5: found vertex 1, expected"), "{message}");
 }
+
+#[test]
+fn booleans_combine_two_files() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("a.off"), cube(0.0)).expect("it is written");
+    fs::write(folder.path().join("b.off"), cube(0.5)).expect("it is written");
+    for (operation, volume) in
+        [("union", 1.5), ("intersection", 0.5), ("difference", 0.5), ("symmetric-difference", 1.0)]
+    {
+        let out = format!("{operation}.ply");
+        let told =
+            json_of(&["mesh", "boolean", operation, "a.off", "b.off", "-o", &out], folder.path());
+        let found = told["volume_m3"].as_f64().expect("a number");
+        assert!((found - volume).abs() < 1e-12, "{operation}: {found}");
+        assert_eq!((&told["closed"], &told["manifold"]), (&true.into(), &true.into()));
+        assert!(told["faces"].as_u64() >= Some(12) && told["secs"].is_number());
+        let again = json_of(&["mesh", "info", &out], folder.path());
+        assert_eq!(again["volume_m3"], told["volume_m3"]);
+        assert_eq!(again["area_by_label_m2"], told["area_by_label_m2"]);
+    }
+    let occupied = driftlab()
+        .args(["mesh", "boolean", "union", "a.off", "b.off", "-o", "union.ply"])
+        .current_dir(folder.path())
+        .output()
+        .expect("it runs");
+    assert_eq!(occupied.status.code(), Some(2), "nothing is overwritten without --force");
+}
+
+#[test]
+fn a_recording_of_a_boolean_holds_every_event() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("a.off"), cube(0.0)).expect("it is written");
+    fs::write(folder.path().join("b.off"), cube(0.5)).expect("it is written");
+    let arguments = ["mesh", "boolean", "union", "a.off", "b.off", "--record", "it.rrd"];
+    json_of(&arguments, folder.path());
+    let told = json_of(&["inspect", "it.rrd"], folder.path());
+    let all = told.to_string();
+    for variant in ["Started", "Combined", "Settled", "Finished"] {
+        assert!(all.contains(variant), "{variant} in {all}");
+    }
+}
+
+#[test]
+fn an_open_operand_is_bad_input() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("a.off"), cube(0.0)).expect("it is written");
+    let open = cube(0.0).replace("8 6 12", "8 5 12").replace("4 1 5 7 3\n", "");
+    fs::write(folder.path().join("open.off"), open).expect("it is written");
+    let output = driftlab()
+        .args(["mesh", "boolean", "union", "a.off", "open.off", "-o", "out.ply"])
+        .current_dir(folder.path())
+        .output()
+        .expect("it runs");
+    assert_eq!(output.status.code(), Some(2));
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert!(
+        message.contains("open.off: found no closed 2-manifold: edge 1-3 is open"),
+        "{message}"
+    );
+    assert!(!folder.path().join("out.ply").exists());
+}

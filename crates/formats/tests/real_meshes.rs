@@ -34,7 +34,8 @@ fn every_mesh_is_read_and_the_sound_ones_are_found_sound() {
     // Name, vertices, polygons, closed, 2-manifold, self-intersecting, volume.
     let known: [(&str, usize, usize, bool, bool, bool, Option<f64>); 18] = [
         ("clean/cube.off", 8, 6, true, true, false, Some(4.0)),
-        ("clean/cow.off", 2762, 5520, true, true, false, Some(0.05348)),
+        // Its faces 593 and 732 cross; rational arithmetic says so, too.
+        ("clean/cow.off", 2762, 5520, true, true, true, Some(0.05348)),
         ("clean/fertility.off", 4494, 9000, true, true, false, Some(4.322e5)),
         ("clean/decimated-knight.off", 502, 1000, true, true, false, Some(0.02449)),
         ("cgal/star.off", 14, 24, true, true, false, Some(0.0625)),
@@ -52,18 +53,22 @@ fn every_mesh_is_read_and_the_sound_ones_are_found_sound() {
         ("nasty/self_intersectA.obj", 8582, 17160, true, true, true, Some(0.148)),
         ("nasty/truck.obj", 2956, 4770, false, false, true, None),
     ];
+    let mut wrong = Vec::new();
     for (name, vertices, polygons, closed, manifold, crossing, volume) in known {
         let (file, mesh) = open(&folder, name);
         assert_eq!(file.polygons, polygons, "{name}");
         assert_eq!(mesh.vertices().len(), vertices, "{name}");
         let validity = check(&mesh);
         let told = (validity.closed, validity.manifold, validity.self_intersecting);
-        assert_eq!(told, (closed, manifold, crossing), "{name}: {:?}", validity.defects.first());
+        if told != (closed, manifold, crossing) {
+            wrong.push(format!("{name}: {told:?} {:?}", validity.defects.first()));
+        }
         if let Some(volume) = volume {
             let off = (mesh.volume_m3().abs() / volume - 1.0).abs();
             assert!(off < 2e-3, "{name}: {}", mesh.volume_m3());
         }
     }
+    assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
 #[test]

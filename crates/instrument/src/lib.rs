@@ -9,6 +9,7 @@ mod options;
 mod palette;
 mod recorder;
 mod recording;
+mod solid;
 
 pub use error::InstrumentError;
 pub use inspect::{
@@ -19,3 +20,4 @@ pub use optimisation::{DrawnPose, OPTIMIZER_EVENTS, OptimisationOptions, Optimis
 pub use options::{Centre, Every, Family, Level, MapOptions, RecordingOptions};
 pub use recorder::{Recorder, StepEnd};
 pub use recording::Recording;
+pub use solid::{BooleanRecording, SolidOptions};

@@ -5,6 +5,7 @@ pub mod bvh;
 pub mod mesh;
 pub mod predicates;
 pub mod query;
+pub mod synthetic;
 pub mod validity;
 
 mod error;

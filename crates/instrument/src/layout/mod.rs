@@ -2,9 +2,11 @@
 
 mod arrange;
 mod graph;
+mod solid;
 mod text;
 mod views;
 
 pub(crate) use graph::{GraphLook, send_graph};
+pub(crate) use solid::send_solid;
 pub(crate) use text::{about, result};
 pub(crate) use views::send;

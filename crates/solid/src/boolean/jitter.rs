@@ -6,7 +6,7 @@ use crate::{Point3, Polyhedron, Vector3};
 pub const JITTER_M: f64 = 1e-8;
 
 /// Steele, Lea and Flood's SplitMix64.
-fn mixed(mut z: u64) -> u64 {
+pub(crate) fn mixed(mut z: u64) -> u64 {
     z = z.wrapping_add(0x9e37_79b9_7f4a_7c15);
     z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
     z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);

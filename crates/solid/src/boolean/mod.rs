@@ -19,7 +19,7 @@
 //! face coincides with only a part of a frontier face, the middle of the frontier face decides for all
 //! of it.
 //!
-//! **Touching operands.** Where the results touches itself at an edge or a vertex, the vertices there
+//! **Touching operands.** Where the result touches itself at an edge or a vertex, the vertices there
 //! exist twice: it is a 2-manifold by index. [`weld`](crate::mesh::weld) makes them one.
 //!
 //! Source: \[Mos15\] 4 unites with Carve and does not say what becomes of labels on coincident faces;
@@ -37,6 +37,7 @@ mod unite;
 pub use coincide::{COINCIDENT_M, obstacle_wins};
 pub use combine::{Options, boolean, boolean_by, boolean_with};
 pub use events::{BooleanEvent, CurveEdge};
+pub(crate) use jitter::mixed;
 pub use jitter::{JITTER_M, jittered};
 pub use kernel::{Combined, Kernel, Operation, Refusal};
 pub use manifold::ManifoldKernel;

@@ -64,6 +64,11 @@ impl Polyhedron {
         Ok(Self { vertices, faces, labels, origins: None })
     }
 
+    /// The mesh without faces.
+    pub fn empty() -> Self {
+        Self { vertices: Vec::new(), faces: Vec::new(), labels: Vec::new(), origins: None }
+    }
+
     /// The same mesh with the view and face from which each of its faces came.
     ///
     /// # Errors

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use clap::{Args, Subcommand};
+use clap::{Args, Subcommand, ValueEnum};
 
 #[derive(Debug, Args)]
 pub(in crate::command) struct MeshArgs {
@@ -24,6 +24,59 @@ pub(super) enum MeshCommand {
             driftlab mesh info part.stl --json"
     )]
     Info(InfoArgs),
+    /// Unite, intersect or subtract two closed meshes
+    #[command(
+        long_about = "Unite, intersect or subtract two closed meshes.\n\n\
+            Both must be closed 2-manifolds, oriented outward. Faces keep their labels; a frontier face \
+            that coincides with an obstacle face, looking the same way, becomes obstacle. --jitter \
+            moves the vertices of B by up to 1e-8 m first: where faces of A and B are coplanar to \
+            rounding, the result intersects itself without it.",
+        after_help = "Examples:\n  \
+            driftlab mesh boolean union a.ply b.ply -o both.ply\n  \
+            driftlab mesh boolean difference part.stl tool.stl --record cut.rrd\n  \
+            driftlab mesh boolean intersection a.off b.off --json"
+    )]
+    Boolean(BooleanArgs),
+}
+
+/// What is made of two meshes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum OperationName {
+    /// What is in A or in B
+    Union,
+    /// What is in A and in B
+    Intersection,
+    /// What is in A and not in B
+    Difference,
+    /// What is in exactly one of them
+    SymmetricDifference,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct BooleanArgs {
+    /// What to make of them
+    pub(super) operation: OperationName,
+    /// The first mesh
+    pub(super) a: PathBuf,
+    /// The second mesh
+    pub(super) b: PathBuf,
+    #[command(flatten)]
+    pub(super) input: MeshInput,
+    /// Where to write the result: .ply, .obj, .stl or .off
+    #[arg(short, long, value_name = "OUT")]
+    pub(super) output: Option<PathBuf>,
+    /// Record every step for the Rerun viewer
+    #[arg(long, value_name = "FILE.rrd")]
+    pub(super) record: Option<PathBuf>,
+    /// Know for each face of the result from which face of A or B it comes (PLY)
+    #[arg(long)]
+    pub(super) origins: bool,
+    /// Move the vertices of B by up to 1e-8 m
+    #[arg(long)]
+    pub(super) jitter: bool,
+    /// Replace files that are there already
+    #[arg(long)]
+    pub(super) force: bool,
 }
 
 /// A mesh to read.

@@ -4,9 +4,9 @@
 //! says what is said of every mesh.
 
 mod args;
+mod boolean;
 mod info;
 mod input;
-#[expect(dead_code, reason = "for the commands that write a mesh")]
 mod output;
 mod told;
 
@@ -18,6 +18,7 @@ use super::out::Out;
 
 pub(super) fn mesh(args: &MeshArgs, out: &Out) -> Result<(), Failure> {
     match &args.command {
+        MeshCommand::Boolean(args) => boolean::boolean(args, out),
         MeshCommand::Info(args) => info::info(args, out),
     }
 }

@@ -1,0 +1,105 @@
+//! `driftlab mesh boolean`: two meshes made one.
+
+use std::path::Path;
+use std::time::Instant;
+
+use anyhow::anyhow;
+use instrument::{BooleanRecording, SolidOptions};
+use solid::boolean::{JITTER_M, Options, Provenance};
+use solid::{Operation, Polyhedron, SolidError, boolean_with, jittered};
+
+use super::super::failure::Failure;
+use super::super::files::free;
+use super::super::graph::numbers::listed;
+use super::super::out::Out;
+use super::args::{BooleanArgs, OperationName};
+use super::input;
+use super::output::Target;
+use super::told::Told;
+
+pub(super) fn boolean(args: &BooleanArgs, out: &Out) -> Result<(), Failure> {
+    let target = args.output.as_deref().map(|path| Target::new(path, args.force)).transpose()?;
+    if let Some(record) = &args.record {
+        free(record, args.force)?;
+    }
+    let a = input::mesh(&args.a, args.input.weld, out)?;
+    let b = input::mesh(&args.b, args.input.weld, out)?;
+    let moved = args.jitter.then(|| jittered(&b.mesh, 1, JITTER_M));
+    let second = moved.as_ref().unwrap_or(&b.mesh);
+    let operation = match args.operation {
+        OperationName::Union => Operation::Union,
+        OperationName::Intersection => Operation::Intersection,
+        OperationName::Difference => Operation::Difference,
+        OperationName::SymmetricDifference => Operation::SymmetricDifference,
+    };
+    let provenance = if args.origins { Provenance::Origins } else { Provenance::Labels };
+    let options = Options { provenance, ..Options::default() };
+    let mut recording = match &args.record {
+        Some(path) => Some(record(path, operation, args)?),
+        None => None,
+    };
+    let start = Instant::now();
+    let combined = match &mut recording {
+        Some(recording) => boolean_with(&a.mesh, second, operation, &options, recording),
+        None => boolean_with(&a.mesh, second, operation, &options, &mut probe::Off),
+    };
+    let secs = start.elapsed().as_secs_f64();
+    let mesh = combined.map_err(|error| refused(&error, args))?;
+    if let Some(target) = &target {
+        target.write(&mesh)?;
+    }
+    tell(&mesh, secs, a.secs + b.secs, recording, args, out)
+}
+
+fn record(
+    path: &Path,
+    operation: Operation,
+    args: &BooleanArgs,
+) -> Result<BooleanRecording, Failure> {
+    let options = SolidOptions {
+        path: path.to_owned(),
+        name: operation.to_string(),
+        about: format!("The {operation} of `{}` and `{}`.", shown(&args.a), shown(&args.b)),
+    };
+    BooleanRecording::create(&options).map_err(Failure::work)
+}
+
+fn shown(path: &Path) -> String {
+    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
+}
+
+/// An operand that is no closed 2-manifold is bad input; its file is named.
+fn refused(error: &SolidError, args: &BooleanArgs) -> Failure {
+    match error {
+        SolidError::Operand { which, defect } => {
+            let path = if which == "first" { &args.a } else { &args.b };
+            Failure::Input(anyhow!(
+                "{}: found no closed 2-manifold: {defect}; expected one",
+                path.display()
+            ))
+        }
+        other => Failure::Work(anyhow!("{other}")),
+    }
+}
+
+fn tell(
+    mesh: &Polyhedron,
+    secs: f64,
+    secs_read: f64,
+    recording: Option<BooleanRecording>,
+    args: &BooleanArgs,
+    out: &Out,
+) -> Result<(), Failure> {
+    let told = Told::of(mesh);
+    let mut json = told.json();
+    json["secs"] = secs.into();
+    json["secs_read"] = secs_read.into();
+    if let Some(recording) = recording {
+        recording.finish(&json).map_err(Failure::work)?;
+    }
+    json["output"] = args.output.as_ref().map(|path| path.display().to_string()).into();
+    json["recording"] = args.record.as_ref().map(|path| path.display().to_string()).into();
+    let mut rows = told.rows();
+    rows.push(("seconds", format!("read {secs_read:.4}, combine {secs:.4}")));
+    out.result(&json, &listed(&rows))
+}

@@ -1,0 +1,10 @@
+//! Recordings of work on meshes: one event after another on the timeline `event`.
+//!
+//! `stage.rs` is what they all stand on: the file, the layout, labelled meshes, lines, points, and one
+//! line of text for each event. One file for each algorithm.
+
+mod boolean;
+mod stage;
+
+pub use boolean::BooleanRecording;
+pub use stage::SolidOptions;
