@@ -96,11 +96,12 @@ fn a_recording_of_a_boolean_holds_every_event() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::write(folder.path().join("a.off"), cube(0.0)).expect("it is written");
     fs::write(folder.path().join("b.off"), cube(0.5)).expect("it is written");
-    let arguments = ["mesh", "boolean", "union", "a.off", "b.off", "--record", "it.rrd"];
+    let arguments =
+        ["mesh", "boolean", "union", "a.off", "b.off", "--clean", "0.001", "--record", "it.rrd"];
     json_of(&arguments, folder.path());
     let told = json_of(&["inspect", "it.rrd"], folder.path());
     let all = told.to_string();
-    for variant in ["Started", "Combined", "Settled", "Finished"] {
+    for variant in ["Started", "Combined", "Settled", "Cleaned", "Finished"] {
         assert!(all.contains(variant), "{variant} in {all}");
     }
 }

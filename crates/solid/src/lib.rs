@@ -5,6 +5,7 @@ pub mod bvh;
 pub mod mesh;
 pub mod predicates;
 pub mod query;
+pub mod reduce;
 pub mod synthetic;
 pub mod validity;
 
@@ -14,6 +15,7 @@ pub use boolean::{BooleanEvent, Operation, boolean, boolean_with, jittered, unit
 pub use error::SolidError;
 pub use mesh::{AreaByLabel, Face, Label, Origin, Polyhedron};
 pub use query::{Hit, Side, Solid};
+pub use reduce::{ReduceEvent, Reduced, clean, reduce, reduce_with};
 pub use validity::{Contact, Crossing, Defect, Validity, check, crossings};
 
 /// A point of space, metres; its frame is in the name of the variable.

@@ -229,6 +229,13 @@ fn a_probe_changes_nothing_and_sees_the_curve() {
     let watched = unite_with(&views, &options, &mut counter).expect("sound");
     assert_eq!(watched, unite(&views, &options).expect("sound"));
 
+    let cleans = Options { clean_m: 1e-3, ..options };
+    let mut counter = Counter::default();
+    let watched = boolean_with(&views[0], &views[1], Operation::Union, &cleans, &mut counter);
+    let plain = boolean(&views[0], &views[1], Operation::Union, &cleans);
+    assert_eq!(watched.expect("sound"), plain.expect("sound"));
+    assert_eq!(counter.0, ["Started", "Combined", "Settled", "Cleaned", "Finished"]);
+
     let p = |c: [f64; 3]| Point3::from(c);
     let a = Polyhedron::cuboid(&p([0.0; 3]), &p([1.0; 3]), Label::Obstacle);
     let b = Polyhedron::cuboid(&p([0.5, 0.25, 0.25]), &p([2.0, 0.75, 0.75]), Label::Obstacle);

@@ -1,4 +1,4 @@
-//! Steps 2 to 4: two operands made one.
+//! Steps 2 to 5: two operands made one.
 
 use probe::{Off, Probe};
 
@@ -10,6 +10,7 @@ use super::{
 };
 use crate::bvh::Aabb;
 use crate::predicates::in_envelope;
+use crate::reduce::{Cleaned, clean};
 use crate::validity::check_topology;
 use crate::{Label, Point3, Polyhedron, Solid, SolidError};
 
@@ -20,11 +21,14 @@ pub struct Options {
     pub provenance: Provenance,
     /// Faces nearer than this coincide, metres; the obstacle wins.
     pub coincident_m: f64,
+    /// Edges no longer than this are drawn together in the end, metres; 0 leaves all as they are. What
+    /// is cleaned has no origins.
+    pub clean_m: f64,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { provenance: Provenance::Labels, coincident_m: COINCIDENT_M }
+        Self { provenance: Provenance::Labels, coincident_m: COINCIDENT_M, clean_m: 0.0 }
     }
 }
 
@@ -100,6 +104,7 @@ pub fn boolean_by<K: Kernel>(
         looking.push((a, -1.0));
     }
     let mesh = settled(mesh, &looking, options.coincident_m, probe);
+    let mesh = cleaned(mesh, options.clean_m, probe);
     probe.emit(BooleanEvent::Finished { mesh: &mesh });
     Ok(mesh)
 }
@@ -133,6 +138,20 @@ pub(super) fn settled(
         mesh
     };
     probe.emit(BooleanEvent::Settled { faces: &changed });
+    mesh
+}
+
+/// Step 5 of a result.
+pub(super) fn cleaned(
+    mesh: Polyhedron,
+    length_m: f64,
+    probe: &mut impl for<'x> Probe<BooleanEvent<'x>>,
+) -> Polyhedron {
+    if length_m <= 0.0 {
+        return mesh;
+    }
+    let Cleaned { mesh, removed, undone } = clean(&mesh, length_m);
+    probe.emit(BooleanEvent::Cleaned { mesh: &mesh, removed: &removed, undone });
     mesh
 }
 

@@ -1,4 +1,4 @@
-//! Step 5: views that are not exactly coplanar.
+//! Step 6: views that are not exactly coplanar.
 
 use crate::{Point3, Polyhedron, Vector3};
 

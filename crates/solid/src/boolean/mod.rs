@@ -6,7 +6,8 @@
 //! | 2. an engine combines the operands and gives each face the number of the one it is part of | `kernel.rs`, `manifold.rs` |
 //! | 3. numbers become labels and origins again; a frontier face that coincides with an obstacle face of an operand, looking the same way, becomes obstacle | `coincide.rs` |
 //! | 4. the pieces of a symmetric difference are laid side by side | `combine.rs` |
-//! | 5. many views are united one by one, each jittered first where they may be exactly coplanar | `unite.rs`, `jitter.rs` |
+//! | 5. slivers go, where that is asked for ([`clean`](crate::clean)) | `combine.rs` |
+//! | 6. many views are united one by one, each jittered first where they may be exactly coplanar | `unite.rs`, `jitter.rs` |
 //!
 //! **Engine.** [`ManifoldKernel`] is `manifold-rust`, its exact engine by name: a port of Manifold,
 //! which decides intersections by symbolic perturbation and so always gives a 2-manifold. Geometry is

@@ -1,8 +1,8 @@
-//! Step 5: a map out of many views.
+//! Step 6: a map out of many views.
 
 use probe::{Off, Probe};
 
-use super::combine::{labelled, refused, settled};
+use super::combine::{cleaned, labelled, refused, settled};
 use super::tags::Tags;
 use super::{BooleanEvent, Kernel, ManifoldKernel, Operation, Options, Refusal};
 use crate::{Polyhedron, SolidError};
@@ -58,6 +58,7 @@ pub fn unite_with(
     let mesh = labelled(combined, &tags, operation.name())?;
     let looking: Vec<_> = views.iter().map(|view| (view, 1.0)).collect();
     let mesh = settled(mesh, &looking, options.coincident_m, probe);
+    let mesh = cleaned(mesh, options.clean_m, probe);
     probe.emit(BooleanEvent::Finished { mesh: &mesh });
     Ok(mesh)
 }

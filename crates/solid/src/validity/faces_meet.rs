@@ -18,7 +18,7 @@ type Triangle<'a> = [&'a Point3; 3];
 
 /// How two triangles that are not flat meet beyond common corners and edges, and near where.
 /// `*_places` name the corners' places: equal numbers, equal places.
-pub(super) fn meet(
+pub(crate) fn meet(
     a: Triangle<'_>,
     a_places: [u32; 3],
     b: Triangle<'_>,

@@ -25,3 +25,4 @@ mod vertices;
 
 pub use check::{Defect, Validity, check, check_topology};
 pub use crossings::{Contact, Crossing, crossings};
+pub(crate) use faces_meet::meet;

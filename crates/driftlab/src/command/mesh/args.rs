@@ -71,6 +71,9 @@ pub(super) struct BooleanArgs {
     /// Know for each face of the result from which face of A or B it comes (PLY)
     #[arg(long)]
     pub(super) origins: bool,
+    /// Draw edges no longer than this together in the end, metres; drops origins
+    #[arg(long, value_name = "M", default_value_t = 0.0)]
+    pub(super) clean: f64,
     /// Move the vertices of B by up to 1e-8 m
     #[arg(long)]
     pub(super) jitter: bool,

@@ -33,7 +33,13 @@ pub(super) fn boolean(args: &BooleanArgs, out: &Out) -> Result<(), Failure> {
         OperationName::SymmetricDifference => Operation::SymmetricDifference,
     };
     let provenance = if args.origins { Provenance::Origins } else { Provenance::Labels };
-    let options = Options { provenance, ..Options::default() };
+    if !(args.clean >= 0.0 && args.clean.is_finite()) {
+        return Err(Failure::Input(anyhow!(
+            "--clean: found {}, expected metres from 0",
+            args.clean
+        )));
+    }
+    let options = Options { provenance, clean_m: args.clean, ..Options::default() };
     let mut recording = match &args.record {
         Some(path) => Some(record(path, operation, args)?),
         None => None,
