@@ -57,18 +57,30 @@ impl Kernel for ManifoldKernel {
     fn give(&self, solid: &Manifold) -> Combined {
         let given: MeshGLP<f64, u32> = solid.get_mesh_glp(-1);
         let stride = (given.num_prop as usize).max(3);
-        let vertices: Vec<Point3> = given
-            .vert_properties
-            .chunks_exact(stride)
-            .map(|v| Point3::new(v[0], v[1], v[2]))
-            .collect();
-        // Vertices that exist once for each run, to be joined again.
+        let places = given.vert_properties.chunks_exact(stride);
+        let mut vertices: Vec<Point3> = places.map(|v| Point3::new(v[0], v[1], v[2])).collect();
+        // Vertices exist once for each run; one of each stays.
         let mut joined: Vec<u32> = (0..vertices.len() as u32).collect();
         for (&from, &to) in given.merge_from_vert.iter().zip(&given.merge_to_vert) {
             joined[from as usize] = to;
         }
-        let corners = given.tri_verts.chunks_exact(3);
-        let faces = corners.map(|c| [c[0], c[1], c[2]].map(|v| joined[v as usize])).collect();
+        let corners = given.tri_verts.as_chunks::<3>().0;
+        let mut faces: Vec<[u32; 3]> =
+            corners.iter().map(|face| face.map(|vertex| joined[vertex as usize])).collect();
+        let mut new_of = vec![u32::MAX; vertices.len()];
+        for &vertex in faces.as_flattened() {
+            new_of[vertex as usize] = 0;
+        }
+        let mut kept = 0;
+        for (old, new) in new_of.iter_mut().enumerate().filter(|(_, new)| **new == 0) {
+            *new = kept;
+            vertices[kept as usize] = vertices[old];
+            kept += 1;
+        }
+        vertices.truncate(kept as usize);
+        for vertex in faces.as_flattened_mut() {
+            *vertex = new_of[*vertex as usize];
+        }
         Combined { vertices, faces, tags: given.face_id }
     }
 }
