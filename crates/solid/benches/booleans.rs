@@ -6,12 +6,13 @@
 use std::io::Write;
 use std::time::Instant;
 
+use boolmesh::prelude::{Manifold as Second, OpType, compute_boolean};
 use manifold_rust::manifold::Manifold;
 use manifold_rust::types::{BooleanEngine, MeshGLP};
 use solid::boolean::{JITTER_M, Options, Provenance};
 use solid::reduce::Goal;
 use solid::synthetic::{Kind, views};
-use solid::{Polyhedron, check, jittered, reduce, unite};
+use solid::{Point3, Polyhedron, check, jittered, reduce, unite};
 
 /// The same chain by the engine's own interface, with labels as numbers of faces.
 fn engine(views: &[Polyhedron], origins: bool) -> usize {
@@ -40,6 +41,29 @@ fn engine(views: &[Polyhedron], origins: bool) -> usize {
     given.tri_verts.len() / 3
 }
 
+/// Volume of the same chain by the second engine, and how long it took.
+fn second(views: &[Polyhedron]) -> (f64, f64) {
+    let take = |view: &Polyhedron| {
+        let places: Vec<f64> = view.vertices().iter().flat_map(|v| [v.x, v.y, v.z]).collect();
+        let corners: Vec<usize> = view.faces().iter().flatten().map(|&v| v as usize).collect();
+        Second::new(&places, &corners).expect("a closed 2-manifold")
+    };
+    let (map, took) = secs(|| {
+        let mut map = take(&views[0]);
+        for view in &views[1..] {
+            map = compute_boolean(&map, &take(view), OpType::Add).expect("a union");
+        }
+        map
+    });
+    let about = views[0].vertices()[0];
+    let corner = |h: usize| {
+        let p = map.ps[map.hs[h].tail];
+        Point3::new(p.x, p.y, p.z) - about
+    };
+    let six = |f: usize| corner(3 * f).dot(&corner(3 * f + 1).cross(&corner(3 * f + 2)));
+    ((0..map.hs.len() / 3).map(six).sum::<f64>() / 6.0, took)
+}
+
 fn secs<T>(work: impl FnOnce() -> T) -> (T, f64) {
     let start = Instant::now();
     let done = work();
@@ -60,7 +84,7 @@ fn main() {
         "ours s",
         "ratio",
         "faces",
-        "volume",
+        "off by",
         "valid",
         "check s",
         "reduced",
@@ -74,6 +98,8 @@ fn main() {
                 taken.iter().enumerate().map(|(i, view)| jittered(view, i as u64, JITTER_M));
             taken = moved.collect();
         }
+        let (volume, took) = second(&taken);
+        say(format!("{kind:?}: boolmesh {took:.3} s, volume {volume:.9} m3"));
         for provenance in [Provenance::Labels, Provenance::Origins] {
             let options = Options { provenance, ..Options::default() };
             let (mut theirs, mut ours) = (f64::INFINITY, f64::INFINITY);
@@ -89,13 +115,13 @@ fn main() {
             let (reduced, took) = secs(|| reduce(&map, &Goal { error_m: 0.02, faces: 0 }));
             let sound = validity.is_valid() && check(&reduced.mesh).is_valid();
             say(format!(
-                "{:10} {:8} {theirs:8.3} {ours:8.3} {:7.3} {:7} {:9.4} {sound:>6} {checked:7.3} {:9} \
+                "{:10} {:8} {theirs:8.3} {ours:8.3} {:7.3} {:7} {:9.1e} {sound:>6} {checked:7.3} {:9} \
                  {:8.4} {took:8.3}",
                 format!("{kind:?}"),
                 format!("{provenance:?}"),
                 ours / theirs,
                 map.faces().len(),
-                map.volume_m3(),
+                (map.volume_m3() - volume).abs() / volume,
                 reduced.mesh.faces().len(),
                 reduced.error_m,
             ));
