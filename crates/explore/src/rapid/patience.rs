@@ -2,10 +2,16 @@
 
 use std::collections::VecDeque;
 
+use maps2d::Frontier;
+
 use crate::{Explorer, RapidParams};
 
-/// What a map has left, as (length in bits, places), is compared with this many of its values before.
+/// What a map has left is compared with this many of its values before.
 const REMEMBERED: usize = 8;
+
+/// Lengths of frontier that differ by less are the same, metres: a large map sums up so many that
+/// going to and fro between the same places never gives the same bits twice.
+const SAME_M: f64 = 1e-3;
 
 /// How long the robot goes on while nothing changes.
 ///
@@ -14,7 +20,7 @@ const REMEMBERED: usize = 8;
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Patience {
     /// What was left when the robot was sent before, latest last.
-    left: VecDeque<(u64, usize)>,
+    left: VecDeque<Frontier>,
     /// Actions taken while what is left was one of those.
     actions: u32,
 }
@@ -23,10 +29,12 @@ impl Explorer {
     /// Whether the robot should go on to a goal at the end of a way of this length: false when it
     /// acted for longer than such a way takes, and all the while nothing new was left or gone.
     pub(super) fn is_worth_going(&mut self, length_m: f64, params: &RapidParams) -> bool {
-        let frontier = self.maps[0].frontier();
-        let left = (frontier.open_m.to_bits(), frontier.places);
+        let left = self.maps[0].frontier();
         let patience = &mut self.rapid.patience;
-        if !patience.left.contains(&left) {
+        let is_same = |before: &Frontier| {
+            before.places == left.places && (before.open_m - left.open_m).abs() < SAME_M
+        };
+        if !patience.left.iter().any(is_same) {
             if patience.left.len() == REMEMBERED {
                 patience.left.pop_front();
             }

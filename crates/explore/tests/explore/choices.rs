@@ -148,3 +148,11 @@ fn a_frontier_that_stays_ahead_is_not_chased_for_ever() {
     assert_eq!(played.robot.forwards().len(), 4 + 7);
     assert_eq!(played.ending, Some(Ending::Complete));
 }
+
+#[test]
+fn going_to_and_fro_ends_though_the_sum_of_what_is_left_has_other_bits_each_time() {
+    let fleeing = Spot { changes_sides: true, closes_within_m: 0.0, ..Spot::new(3.0, 0.0) };
+    let played = play(Sketch::new(vec![fleeing]), RapidParams::default());
+    assert_eq!(played.heard.given_up(), [GiveUp::NothingNew]);
+    assert_eq!(played.ending, Some(Ending::Complete));
+}
