@@ -43,7 +43,7 @@ impl Chain {
     pub(crate) fn segments<'a>(
         &'a self,
         volume: &'a LocalVolume,
-    ) -> impl Iterator<Item = (Point2, Point2)> + 'a {
+    ) -> impl Iterator<Item = (Point2, Point2)> + Clone + 'a {
         self.parts.iter().map(|part| {
             let edge = &volume.frontier[part.edge];
             (edge.at(part.span.from), edge.at(part.span.to))

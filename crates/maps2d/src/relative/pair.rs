@@ -1,10 +1,10 @@
 //! Two volumes held against each other: frontier of one inside the other is closed (\[ISRR19\] 4.3).
 
-use geometry::planar::Interval;
+use geometry::planar::{Interval, box_gap};
 use pose::Se2;
 use probe::VertexId;
 
-use super::walls::{spans_along_walls, spans_given_up};
+use super::walls::{ROUNDING_M, spans_along_walls, spans_given_up};
 use super::{Cause, Certainty, Closing, ConsolidationEvent, RelativeMap, VolumeState};
 use crate::MapProbe;
 use crate::volume::LocalVolume;
@@ -206,7 +206,7 @@ impl RelativeMap {
 /// placements.
 ///
 /// Whole edges are clipped, not their open parts, so that a stretch does not depend on what was
-/// closed before.
+/// closed before. Only edges near the disc around what is open are looked at.
 pub(super) fn spans_inside(
     state: &VolumeState,
     other: &LocalVolume,
@@ -215,7 +215,8 @@ pub(super) fn spans_inside(
     spans: &mut Vec<(usize, Interval)>,
 ) {
     let (centre, open_m) = state.open_disc;
-    let reach_m = open_m + other.inner.outer_radius() + 1e-6;
+    let open_m = open_m + ROUNDING_M;
+    let reach_m = open_m + other.inner.outer_radius();
     if placements[0].transform(&centre).coords.norm_squared() > reach_m * reach_m {
         return;
     }
@@ -225,6 +226,9 @@ pub(super) fn spans_inside(
             continue;
         }
         let frontier = &state.volume.frontier[edge];
+        if box_gap(&frontier.from, &frontier.to, &centre, &centre) > open_m {
+            continue;
+        }
         for (i, other_from_at) in placements.iter().enumerate() {
             clipped.clear();
             other.inner.clip(

@@ -32,12 +32,14 @@
 //! One thing differs: slivers are judged together with those of retired volumes (`slivers`), which
 //! nobody closes any more. So more slivers may count than if nothing were retired, never fewer.
 
+use geometry::Point2;
 use geometry::planar::Interval;
 use posegraph::Scope;
 use probe::VertexId;
 
 use super::incremental::Changed;
 use super::pair::{placements, spans_inside};
+use super::state::disc_around;
 use super::walls::spans_along_walls;
 use super::{Cause, Closing, ConsolidationEvent, RelativeMap, VolumeState};
 use crate::MapProbe;
@@ -101,7 +103,15 @@ impl RelativeMap {
             return false;
         }
         let helped = state.closed_in.clone();
-        helped.into_iter().rev().any(|other| self.is_missed_by(other, vertex))
+        // Who missed it before mostly does so again: a robot on its way passes the same places often.
+        let before = state.missed_by;
+        let order =
+            before.into_iter().chain(helped.into_iter().rev().filter(|o| Some(*o) != before));
+        let missed_by = order.into_iter().find(|&other| self.is_missed_by(other, vertex));
+        if let Some(state) = self.volumes[vertex].as_deref_mut() {
+            state.missed_by = missed_by;
+        }
+        missed_by.is_some()
     }
 
     fn is_missed_by(&mut self, other: VertexId, vertex: VertexId) -> bool {
@@ -127,15 +137,17 @@ impl RelativeMap {
         vertex: VertexId,
     ) -> bool {
         let counted_m = state.open_m;
-        let mut opened: Vec<Interval> = Vec::new();
+        let (mut opened, mut ends): (Vec<Interval>, Vec<Point2>) = (Vec::new(), Vec::new());
         let mut reason: Option<Closing> = None;
-        for ledger in &mut state.ledgers {
+        for (edge, ledger) in state.volume.frontier.iter().zip(&mut state.ledgers) {
             let relied = |closing: &Closing| {
                 let relies = closing.by == vertex && closing.cause != Cause::Unreachable;
                 reason = relies.then_some(*closing).or(reason);
                 relies
             };
+            opened.clear();
             ledger.reopen(relied, &mut opened);
+            ends.extend(opened.iter().flat_map(|span| [edge.at(span.from), edge.at(span.to)]));
         }
         let Some(reason) = reason else { return false };
         state.measure(self.params.sliver_m);
@@ -143,6 +155,8 @@ impl RelativeMap {
         if state.open_m <= counted_m {
             return false;
         }
+        // What was open before was held against the others already.
+        state.open_disc = disc_around(ends.iter().copied());
         self.take_scope(of, &mut probe::Off);
         let (mut poses, mut clipped) = (Vec::new(), Vec::new());
         let mut spans: Vec<(usize, Interval)> = Vec::new();

@@ -35,6 +35,8 @@ pub struct VolumeState {
     pub closed_others: bool,
     /// The volumes of whose frontier it closed parts, ascending.
     pub closed_in: Vec<VertexId>,
+    /// A volume of whose frontier more would count without it, as found last.
+    pub missed_by: Option<VertexId>,
     /// Whether it is out of later comparisons.
     pub retired: bool,
     /// How many volumes came into its scope since it last closed frontier that counted.
@@ -62,6 +64,7 @@ impl VolumeState {
             unreachable_m: 0.0,
             closed_others: false,
             closed_in: Vec::new(),
+            missed_by: None,
             retired: false,
             idle_scans: 0,
             blocked: false,
@@ -115,22 +118,8 @@ impl VolumeState {
     }
 
     fn disc_around_open(&self) -> (Point2, f64) {
-        let ends = || {
-            let segments = self.chains.iter().flat_map(|chain| chain.segments(&self.volume));
-            segments.flat_map(|(from, to)| [from, to])
-        };
-        let (mut low, mut high) =
-            (Point2::new(f64::MAX, f64::MAX), Point2::new(f64::MIN, f64::MIN));
-        for end in ends() {
-            low = low.inf(&end);
-            high = high.sup(&end);
-        }
-        if low.x > high.x {
-            return (Point2::origin(), 0.0);
-        }
-        let centre = Point2::from((low.coords + high.coords) * 0.5);
-        let radius_m = ends().map(|end| (end - centre).norm()).fold(0.0, f64::max);
-        (centre, radius_m)
+        let segments = self.chains.iter().flat_map(|chain| chain.segments(&self.volume));
+        disc_around(segments.flat_map(|(from, to)| [from, to]))
     }
 
     /// The chains that count.
@@ -152,6 +141,21 @@ impl VolumeState {
                 .map(|c| c.parts.len() * size_of::<super::ChainPart>())
                 .sum::<usize>()
     }
+}
+
+/// A disc around points, of no extent around none: centre and radius, metres.
+pub(super) fn disc_around(points: impl Iterator<Item = Point2> + Clone) -> (Point2, f64) {
+    let (mut low, mut high) = (Point2::new(f64::MAX, f64::MAX), Point2::new(f64::MIN, f64::MIN));
+    for point in points.clone() {
+        low = low.inf(&point);
+        high = high.sup(&point);
+    }
+    if low.x > high.x {
+        return (Point2::origin(), 0.0);
+    }
+    let centre = Point2::from((low.coords + high.coords) * 0.5);
+    let radius_m = points.map(|point| (point - centre).norm()).fold(0.0, f64::max);
+    (centre, radius_m)
 }
 
 /// Whether a chain lies about where a sliver is held.

@@ -2,14 +2,14 @@
 
 use geometry::Point2;
 use geometry::planar::Interval;
-use geometry::planar::near_segment;
+use geometry::planar::{box_gap, near_segment};
 use pose::Se2;
 
 use super::VolumeState;
 use crate::volume::LocalVolume;
 
 /// By how much rounding may move a point, metres: many times too much.
-const ROUNDING_M: f64 = 1e-6;
+pub(super) const ROUNDING_M: f64 = 1e-6;
 
 /// The stretches of open frontier of `state` within `radius_m` of what is solid in `other`.
 ///
@@ -30,9 +30,10 @@ pub(super) fn spans_along_walls(
     }
     let other_from_at = at_from_other.inverse();
     // Walls far from all that is open close nothing: only the rest is held against every edge.
-    let (centre, open_m) = state.open_disc;
-    let centre = other_from_at.transform(&centre);
-    let around = Box2::around(&centre, &centre, open_m + radius_m + ROUNDING_M);
+    let (open_at, open_m) = state.open_disc;
+    let open_m = open_m + ROUNDING_M;
+    let centre = other_from_at.transform(&open_at);
+    let around = Box2::around(&centre, &centre, open_m + radius_m);
     if around.distance_squared_to_origin() > other.radius_m() * other.radius_m() {
         return;
     }
@@ -47,6 +48,9 @@ pub(super) fn spans_along_walls(
             continue;
         }
         let frontier = &state.volume.frontier[edge];
+        if box_gap(&frontier.from, &frontier.to, &open_at, &open_at) > open_m {
+            continue;
+        }
         let from = other_from_at.transform(&frontier.from);
         let to = other_from_at.transform(&frontier.to);
         let near = Box2::around(&from, &to, radius_m);
