@@ -2,5 +2,9 @@
 
 pub mod command;
 pub mod config;
+mod files;
 pub mod run;
 pub mod sweep;
+mod table;
+
+pub use table::TableError;

@@ -6,6 +6,7 @@ use clap::{Args, Parser, Subcommand};
 
 use super::graph::GraphArgs;
 use super::mesh::MeshArgs;
+use crate::sweep::Shard;
 
 const VERSION: &str = if env!("DRIFTLAB_GIT_HASH").is_empty() {
     env!("CARGO_PKG_VERSION")
@@ -70,11 +71,15 @@ pub(super) enum Command {
         long_about = "Do the same work over many inputs and leave a table.\n\n\
             The config says what: [graph.outliers] adds wrong loop closures to pose graphs and lets \
             robust methods find them. The folder holds results.parquet, one row for each graph, share, \
-            seed and method. Everything but the seconds is the same each time. A table in Markdown \
-            is printed.",
+            seed and method, and timing.parquet with what depends on the clock. A table in Markdown \
+            is printed.\n\n\
+            Finished jobs are noted in a journal in the folder. A sweep that was killed goes on from \
+            there when it is started again; the results are the same, byte for byte.",
         after_help = "Examples:\n  \
             driftlab sweep configs/graph/outliers.toml\n  \
-            driftlab sweep configs/graph/outliers.toml --csv --out /tmp/outliers --force"
+            driftlab sweep configs/graph/outliers.toml --threads 1 --csv --out /tmp/outliers\n  \
+            driftlab sweep configs/graph/outliers.toml --shard 2/8 --out /shared/outliers\n  \
+            driftlab sweep configs/graph/outliers.toml --merge --out /shared/outliers"
     )]
     Sweep(SweepArgs),
     /// Pose-graph files: tell, optimise, compare, convert, make up
@@ -139,8 +144,18 @@ pub(super) struct SweepArgs {
     /// Write results.csv, too
     #[arg(long)]
     pub(super) csv: bool,
-    /// Replace results that are in the folder already
-    #[arg(long)]
+    /// Threads to work on [default: all cores]; one for clean times
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
+    pub(super) threads: Option<u16>,
+    /// Do only every n-th job, from the i-th on, so that n machines share the sweep
+    #[arg(long, value_name = "I/N", conflicts_with = "merge")]
+    pub(super) shard: Option<Shard>,
+    /// Do nothing but put the results of all shards together: those in the folder, and those in
+    /// these
+    #[arg(long, value_name = "DIR", num_args = 0..)]
+    pub(super) merge: Option<Vec<PathBuf>>,
+    /// Begin anew: drop what a sweep left in the folder
+    #[arg(long, conflicts_with = "merge")]
     pub(super) force: bool,
 }
 

@@ -36,6 +36,12 @@ impl Out {
         }
     }
 
+    /// The result of work that leaves files: as [`result`](Self::result), but with `-q` the table
+    /// is not shown.
+    pub(super) fn summary(&self, json: &Value, text: &str) -> Result<(), Failure> {
+        if self.quiet && !self.json { Ok(()) } else { self.result(json, text) }
+    }
+
     /// A message; silent with `-q`.
     pub(super) fn note(&self, text: &str) {
         if !self.quiet {

@@ -1,91 +1,176 @@
 //! `driftlab sweep`: the same work over many inputs.
 
-use std::fs;
 use std::path::PathBuf;
+use std::thread::available_parallelism;
+use std::time::{Duration, Instant};
 
-use anyhow::{Context, anyhow};
-use serde_json::{Value, json};
+use anyhow::anyhow;
+use serde_json::{Map, Value, json};
 
 use super::args::SweepArgs;
 use super::failure::Failure;
 use super::out::Out;
 use super::progress::Bar;
 use crate::config::Sweep;
-use crate::sweep::{OutlierRow, SweepError, markdown, outlier_rows, to_csv, to_parquet};
+use crate::sweep::{Folder, Job, Outcome, Outliers, Plan, SweepError, each, markdown};
+use crate::table::{Cell, Table};
 
 /// The variable that names the folder of real data.
 const DATA: &str = "DRIFTLAB_DATA";
 
 pub(super) fn sweep(args: &SweepArgs, out: &Out) -> Result<(), Failure> {
     let sweep = Sweep::read(&args.config)?.graph.outliers;
-    let name = args.config.file_stem().unwrap_or_default();
-    let dir = args.out.clone().unwrap_or_else(|| PathBuf::from("recordings").join(name));
-    let results = dir.join("results.parquet");
-    if results.exists() && !args.force {
-        let found = results.display();
-        return Err(Failure::Input(anyhow!(
-            "{found}: found results of an earlier sweep, expected none; --force replaces them"
-        )));
-    }
-    fs::create_dir_all(&dir)
-        .with_context(|| format!("{}: cannot be made", dir.display()))
-        .map_err(Failure::Work)?;
+    let name = args.config.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let data = std::env::var_os(DATA).map(PathBuf::from);
-    let graphs = (sweep.files.len() + sweep.synthetic.len()) as u64;
-    let all = graphs * sweep.seeds * (sweep.shares.len() * sweep.methods.len()) as u64;
-    let mut bar = Bar::new("sweep", out);
-    let mut count = 0;
-    let missing = |file: &str| {
+    let outliers = Outliers::new(&name, &sweep, data.as_deref());
+    let outliers = outliers.map_err(|error| Failure::Input(error.into()))?;
+    for file in &outliers.missing {
         out.note(&format!("warning: {file}: not in the folder that ${DATA} names; left out"));
-    };
-    let rows = outlier_rows(&sweep, data.as_deref(), missing, |row| {
-        count += 1;
-        bar.update(count as f64 / all as f64, || format!("{} {}", row.graph, row.method));
-        out.detail(&format!(
-            "{} {} {} {}: RMSE {:.3} %, precision {:.3}, recall {:.3}, {:.2} s",
-            row.graph,
-            row.share,
-            row.seed,
-            row.method,
-            100.0 * row.rmse,
-            row.precision,
-            row.recall,
-            row.secs
-        ));
-    });
-    bar.clear();
-    let rows = rows.map_err(|error| match error {
-        SweepError::Graph { .. } => Failure::Input(error.into()),
-        _ => Failure::work(error),
-    })?;
-    let mut files = vec![("results.parquet", to_parquet(&rows).map_err(Failure::work)?)];
-    if args.csv {
-        files.push(("results.csv", to_csv(&rows).into_bytes()));
     }
-    for (file, bytes) in files {
-        let path = dir.join(file);
-        fs::write(&path, bytes)
-            .with_context(|| format!("{}: cannot be written", path.display()))
-            .map_err(Failure::Work)?;
-    }
-    let rows_json: Vec<Value> = rows.iter().map(told).collect();
-    out.result(&json!({ "out": dir.display().to_string(), "rows": rows_json }), &markdown(&rows))
+    let plan = &outliers.plan;
+    let folder = conduct(args, plan, out, |job| Ok(outliers.run(job)))?;
+    let Some(folder) = folder else { return Ok(()) };
+    let [(_, results), (_, timing), _] = folder.tables(plan);
+    out.summary(&told(args, plan, &results, &timing), &markdown(&results, &timing))
 }
 
-fn told(row: &OutlierRow) -> Value {
-    json!({
-        "graph": row.graph,
-        "share": row.share,
-        "seed": row.seed,
-        "method": row.method,
-        "success": row.success,
-        "rmse": row.rmse,
-        "precision": row.precision,
-        "recall": row.recall,
-        "wrong": row.wrong,
-        "rejected": row.rejected,
-        "noise_scale": row.noise_scale,
-        "iterations": row.iterations,
-        "secs": row.secs,
-    })
+/// The folder of the results.
+fn folder_of(args: &SweepArgs, plan: &Plan) -> PathBuf {
+    args.out.clone().unwrap_or_else(|| PathBuf::from("recordings").join(&plan.name))
+}
+
+/// Does what is left of a plan and writes the tables; `None` where other shards have to end first.
+fn conduct(
+    args: &SweepArgs,
+    plan: &Plan,
+    out: &Out,
+    work: impl Fn(&Job) -> Result<Outcome, Failure> + Sync,
+) -> Result<Option<Folder>, Failure> {
+    let dir = folder_of(args, plan);
+    let mut folder = Folder::open(&dir, plan, args.shard, args.force)?;
+    for other in args.merge.iter().flatten() {
+        folder.merge(other, plan)?;
+    }
+    let left = |folder: &Folder| plan.jobs.iter().filter(|job| !folder.is_done(job)).count();
+    if args.merge.is_some() {
+        if left(&folder) > 0 {
+            let (left, all) = (left(&folder), plan.jobs.len());
+            let hint = "run the shards that are missing, or sweep without --merge";
+            let dir = dir.display();
+            return Err(Failure::Work(anyhow!("{dir}: {left} of {all} jobs are not done; {hint}")));
+        }
+    } else {
+        let mine = |job: &&Job| args.shard.is_none_or(|shard| shard.has(job));
+        let todo: Vec<&Job> =
+            plan.jobs.iter().filter(mine).filter(|job| !folder.is_done(job)).collect();
+        let before = plan.jobs.iter().filter(mine).count() - todo.len();
+        if before > 0 {
+            out.note(&format!("{before} of {} jobs were done before", before + todo.len()));
+        }
+        work_on(args, &mut folder, &todo, out, work)?;
+    }
+    if let (Some(shard), waiting @ 1..) = (args.shard, left(&folder)) {
+        let (index, count) = (shard.index, shard.count);
+        let text = format!(
+            "shard {index} of {count} is done; {waiting} jobs of other shards are not: sweep with \
+             --merge when they are\n"
+        );
+        let json = json!({ "out": dir.display().to_string(), "jobs_left": waiting });
+        out.summary(&json, &text)?;
+        return Ok(None);
+    }
+    folder.write_tables(plan, args.csv)?;
+    out.note(&format!("wrote {}", dir.display()));
+    Ok(Some(folder))
+}
+
+fn work_on(
+    args: &SweepArgs,
+    folder: &mut Folder,
+    todo: &[&Job],
+    out: &Out,
+    work: impl Fn(&Job) -> Result<Outcome, Failure> + Sync,
+) -> Result<(), Failure> {
+    let cores = available_parallelism().map_or(1, usize::from);
+    let threads = args.threads.map_or(cores, usize::from);
+    let began = Instant::now();
+    let finished = std::cell::Cell::new(0_usize);
+    let mut bar = Bar::new("sweep", out);
+    let done = |job: &&Job, outcome: Outcome| -> Result<(), Failure> {
+        out.detail(&describe(job, &outcome));
+        folder.add(job, outcome)?;
+        finished.set(finished.get() + 1);
+        Ok(())
+    };
+    let tick = || {
+        let (finished, all) = (finished.get(), todo.len());
+        bar.update(finished as f64 / all as f64, || {
+            format!("{finished} of {all}, {}", time_left(began.elapsed(), finished, all))
+        });
+    };
+    let result = each(todo, threads, |job| work(job), done, tick);
+    bar.clear();
+    result
+}
+
+/// How long the rest takes at the speed so far.
+fn time_left(elapsed: Duration, finished: usize, all: usize) -> String {
+    if finished == 0 {
+        return "no job done yet".to_owned();
+    }
+    let secs = elapsed.as_secs_f64() / finished as f64 * (all - finished) as f64;
+    match secs as u64 {
+        secs @ 0..100 => format!("{secs} s left"),
+        secs @ 100..6000 => format!("{} min left", secs / 60),
+        secs => format!("{} h {} min left", secs / 3600, secs % 3600 / 60),
+    }
+}
+
+/// A finished job on one line.
+fn describe(job: &Job, outcome: &Outcome) -> String {
+    let cells = |row: &[(String, Cell)]| {
+        let cells = row.iter().map(|(name, cell)| format!("{name} {}", cell.shown()));
+        cells.collect::<Vec<_>>().join(", ")
+    };
+    let rows: Vec<String> = outcome.results.iter().map(|row| cells(row)).collect();
+    format!("{}: {}", cells(&job.labels), rows.join("; "))
+}
+
+/// The result of a sweep in JSON: its rows, with the times beside what was measured.
+fn told(args: &SweepArgs, plan: &Plan, results: &Table, timing: &Table) -> Value {
+    let rows = results.rows.iter().zip(&timing.rows).map(|(result, timed)| {
+        let cells = |names: &[String], row: &[Cell]| -> Vec<(String, Value)> {
+            names.iter().cloned().zip(row.iter().map(Cell::to_json)).collect()
+        };
+        let mut all = Map::new();
+        all.extend(cells(&results.names, result));
+        all.extend(cells(&timing.names, timed));
+        Value::Object(all)
+    });
+    let rows: Vec<Value> = rows.collect();
+    json!({ "out": folder_of(args, plan).display().to_string(), "rows": rows })
+}
+
+impl From<SweepError> for Failure {
+    fn from(error: SweepError) -> Self {
+        match error {
+            SweepError::Contradiction { .. } | SweepError::Table { .. } => Self::work(error),
+            _ => Self::Input(error.into()),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_time_left_follows_from_the_speed_so_far() {
+        let left = |secs, finished| time_left(Duration::from_secs(secs), finished, 100);
+        assert_eq!(left(5, 0), "no job done yet");
+        assert_eq!(left(10, 50), "10 s left");
+        assert_eq!(left(600, 50), "10 min left");
+        assert_eq!(left(7260, 50), "2 h 1 min left");
+        assert_eq!(left(7, 100), "0 s left");
+    }
 }

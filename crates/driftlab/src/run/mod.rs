@@ -29,5 +29,5 @@ pub use provenance::{GIT_HASH, Input, Provenance, VERSION};
 pub use record::start_recording;
 pub use report::{MapMetrics, MapTiming, MetricsReport, TimingReport, quantile, to_file, to_json};
 pub use session::{Outcome, RunError, files, run_experiment};
-pub use steps::{StepRow, StepsError, to_parquet};
+pub use steps::{StepRow, to_parquet};
 pub use watch::{StepSeen, Watch};

@@ -6,9 +6,10 @@ use std::time::Instant;
 use instrument::InstrumentError;
 
 use super::{
-    Experiment, Input, MapRun, MetricsReport, Provenance, StepRow, StepsError, TimingReport,
-    VERSION, drive, provenance::GIT_HASH, report, start_recording, to_parquet,
+    Experiment, Input, MapRun, MetricsReport, Provenance, StepRow, TimingReport, VERSION, drive,
+    provenance::GIT_HASH, report, start_recording, to_parquet,
 };
+use crate::table::TableError;
 
 /// What came of a run.
 #[derive(Clone, Debug, PartialEq)]
@@ -32,8 +33,8 @@ pub enum RunError {
     #[error(transparent)]
     Report(#[from] serde_json::Error),
     /// The table of steps cannot be made.
-    #[error(transparent)]
-    Steps(#[from] StepsError),
+    #[error("steps.parquet: {0}")]
+    Steps(#[from] TableError),
     /// The config or the provenance cannot be put into its form.
     #[error(transparent)]
     Toml(#[from] toml::ser::Error),

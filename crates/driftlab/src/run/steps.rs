@@ -1,14 +1,8 @@
 //! `steps.parquet`: one row per step and map, the same bytes for the same run.
 
-use std::sync::Arc;
-
-use arrow::array::{ArrayRef, Float64Array, RecordBatch, StringArray, UInt64Array};
-use arrow::error::ArrowError;
-use parquet::arrow::ArrowWriter;
-use parquet::basic::Compression;
-use parquet::errors::ParquetError;
-use parquet::file::properties::WriterProperties;
 use pose::Se2;
+
+use crate::table::{Columns, TableError};
 
 /// What is noted of one step of one map.
 #[derive(Clone, Debug, PartialEq)]
@@ -47,67 +41,33 @@ pub struct StepRow {
     pub bumps: u64,
 }
 
-/// Why the table could not be made.
-#[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum StepsError {
-    /// The columns do not fit together.
-    #[error("steps.parquet: {0}")]
-    Arrow(#[from] ArrowError),
-    /// The writer refused.
-    #[error("steps.parquet: {0}")]
-    Parquet(#[from] ParquetError),
-}
-
 /// The bytes of `steps.parquet`.
 ///
 /// # Errors
 /// Only for more rows than memory holds.
-pub fn to_parquet(rows: &[StepRow]) -> Result<Vec<u8>, StepsError> {
-    let batch = columns(rows)?;
-    let properties = WriterProperties::builder()
-        .set_created_by("driftlab".into())
-        .set_compression(Compression::SNAPPY)
-        .build();
-    let mut bytes = Vec::new();
-    let mut writer = ArrowWriter::try_new(&mut bytes, batch.schema(), Some(properties))?;
-    writer.write(&batch)?;
-    writer.close()?;
-    Ok(bytes)
-}
-
-fn columns(rows: &[StepRow]) -> Result<RecordBatch, ArrowError> {
-    let float = |of: &dyn Fn(&StepRow) -> f64| -> ArrayRef {
-        Arc::new(Float64Array::from_iter_values(rows.iter().map(of)))
-    };
-    let count = |of: &dyn Fn(&StepRow) -> u64| -> ArrayRef {
-        Arc::new(UInt64Array::from_iter_values(rows.iter().map(of)))
-    };
-    let word = |of: &dyn Fn(&StepRow) -> String| -> ArrayRef {
-        Arc::new(StringArray::from_iter_values(rows.iter().map(of)))
-    };
-    RecordBatch::try_from_iter([
-        ("step", count(&|row| row.step)),
-        ("map", word(&|row| row.map.clone())),
-        ("distance_m", float(&|row| row.distance_m)),
-        ("sim_time", float(&|row| row.sim_time_secs)),
-        ("state", word(&|row| row.state.to_owned())),
-        ("true_x_m", float(&|row| row.world_from_body.translation.x)),
-        ("true_y_m", float(&|row| row.world_from_body.translation.y)),
-        ("true_theta_rad", float(&|row| row.world_from_body.angle())),
-        ("odom_x_m", float(&|row| row.odom_from_body.translation.x)),
-        ("odom_y_m", float(&|row| row.odom_from_body.translation.y)),
-        ("odom_theta_rad", float(&|row| row.odom_from_body.angle())),
-        ("coverage", float(&|row| row.coverage)),
-        ("frontier_open_m", float(&|row| row.frontier_open_m)),
-        ("frontier_ignored_m", float(&|row| row.frontier_ignored_m)),
-        ("frontier_places", count(&|row| row.frontier_places)),
-        ("vertices", count(&|row| row.vertices)),
-        ("place_edges", count(&|row| row.place_edges)),
-        ("scans", count(&|row| row.scans)),
-        ("collisions", count(&|row| row.collisions)),
-        ("bumps", count(&|row| row.bumps)),
-    ])
+pub fn to_parquet(rows: &[StepRow]) -> Result<Vec<u8>, TableError> {
+    let mut table = Columns::default();
+    table.all_counts("step", rows.iter().map(|row| row.step));
+    table.all_texts("map", rows.iter().map(|row| row.map.as_str()));
+    table.all_numbers("distance_m", rows.iter().map(|row| row.distance_m));
+    table.all_numbers("sim_time", rows.iter().map(|row| row.sim_time_secs));
+    table.all_texts("state", rows.iter().map(|row| row.state));
+    table.all_numbers("true_x_m", rows.iter().map(|row| row.world_from_body.translation.x));
+    table.all_numbers("true_y_m", rows.iter().map(|row| row.world_from_body.translation.y));
+    table.all_numbers("true_theta_rad", rows.iter().map(|row| row.world_from_body.angle()));
+    table.all_numbers("odom_x_m", rows.iter().map(|row| row.odom_from_body.translation.x));
+    table.all_numbers("odom_y_m", rows.iter().map(|row| row.odom_from_body.translation.y));
+    table.all_numbers("odom_theta_rad", rows.iter().map(|row| row.odom_from_body.angle()));
+    table.all_numbers("coverage", rows.iter().map(|row| row.coverage));
+    table.all_numbers("frontier_open_m", rows.iter().map(|row| row.frontier_open_m));
+    table.all_numbers("frontier_ignored_m", rows.iter().map(|row| row.frontier_ignored_m));
+    table.all_counts("frontier_places", rows.iter().map(|row| row.frontier_places));
+    table.all_counts("vertices", rows.iter().map(|row| row.vertices));
+    table.all_counts("place_edges", rows.iter().map(|row| row.place_edges));
+    table.all_counts("scans", rows.iter().map(|row| row.scans));
+    table.all_counts("collisions", rows.iter().map(|row| row.collisions));
+    table.all_counts("bumps", rows.iter().map(|row| row.bumps));
+    table.into_parquet()
 }
 
 #[cfg(test)]

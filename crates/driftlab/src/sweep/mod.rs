@@ -1,7 +1,31 @@
-//! The same work over many inputs: one row each.
+//! The same work over many inputs, in parallel, that can be killed and goes on where it was.
+//!
+//! A sweep is a list of jobs. Each finished job is one line of a journal in the folder of the
+//! sweep; the tables are made from the journal alone, in the order of the jobs. However often a
+//! sweep was killed, on how many threads and in how many shards it ran, the tables but for the
+//! times are the same, byte for byte.
+//!
+//! | file | what |
+//! |---|---|
+//! | `job` | what a job is, and what came of it |
+//! | `parallel` | jobs on all cores |
+//! | `journal` | one line for each finished job; what a kill left of it |
+//! | `folder` | the files of a sweep, resuming, shards, merging |
+//! | `outliers`, `summary` | robust methods against wrong loop closures, and their table |
 
+mod folder;
+mod job;
+mod journal;
 mod outliers;
-mod rows;
+mod parallel;
+mod summary;
 
-pub use outliers::{OutlierRow, SweepError, outlier_rows};
-pub use rows::{markdown, to_csv, to_parquet};
+pub use folder::SweepError;
+pub use journal::JournalError;
+pub use outliers::GraphFileError;
+
+pub(crate) use folder::Folder;
+pub(crate) use job::{Job, Outcome, Plan, Shard};
+pub(crate) use outliers::Outliers;
+pub(crate) use parallel::each;
+pub(crate) use summary::markdown;

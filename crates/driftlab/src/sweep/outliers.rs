@@ -1,17 +1,22 @@
 //! Robust methods against wrong loop closures.
 
 use std::path::{Path, PathBuf};
+use std::sync::OnceLock;
 use std::time::Instant;
 
 use formats::FormatError;
 use formats::pose_graph::{AnyGraph, read};
+use pose::{Se2, Se3};
 use posegraph::initial::odometry;
 use posegraph::synchronize::Rigid;
 use posegraph::synthetic::{Lattice, Sphere, city, lattice, manhattan, sphere, with_outliers};
 use posegraph::{FactorGraph, Options, Robust, default_start, optimize_robust};
 use probe::Off;
 
+use super::job::{Job, Outcome, Plan};
 use crate::config::{OutlierSweep, SyntheticGraph};
+use crate::run::Input;
+use crate::table::Cell;
 
 /// A map is right up to this share of its extent.
 const RIGHT: f64 = 0.01;
@@ -19,152 +24,205 @@ const RIGHT: f64 = 0.01;
 /// Precision and recall of the rejected closures are right from here.
 const NAMED: f64 = 0.95;
 
-/// What one method made of one graph with wrong closures.
-#[derive(Clone, Debug, PartialEq)]
-pub struct OutlierRow {
-    /// Name of the graph.
-    pub graph: String,
-    /// Dimension of the space, 2 or 3.
-    pub dimension: u64,
-    /// Share of wrong closures among all closures.
-    pub share: f64,
-    /// Seed of the wrong closures.
-    pub seed: u64,
-    /// Name of the method.
-    pub method: &'static str,
-    /// Whether the map is right and the wrong closures are named.
-    pub success: bool,
-    /// Root mean square distance of positions to the optimum without wrong closures, as a share of the
-    /// longest side of its bounding box; both hold the first vertex.
-    pub rmse: f64,
-    /// Share of wrong closures among the rejected; 1 where none is rejected.
-    pub precision: f64,
-    /// Share of rejected closures among the wrong; 1 where none is wrong.
-    pub recall: f64,
-    /// Number of wrong closures.
-    pub wrong: u64,
-    /// Number of rejected closures.
-    pub rejected: u64,
-    /// Variance of the errors in units of what the information matrices say.
-    pub noise_scale: f64,
-    /// Iterations.
-    pub iterations: u64,
-    /// Time from start values to solution.
-    pub secs: f64,
-}
-
-/// Why a sweep could not go on.
+/// A graph file that is not what it should be.
 #[derive(Debug, thiserror::Error)]
-#[non_exhaustive]
-pub enum SweepError {
-    /// A graph file that is not what it should be.
-    #[error("{}: {reason}", path.display())]
-    Graph {
-        /// The file.
-        path: PathBuf,
-        /// What the reader said.
-        reason: FormatError,
-    },
-    /// The file that holds the results could not be made.
-    #[error("results.parquet: {0}")]
-    Table(#[from] parquet::errors::ParquetError),
-    /// The columns of the results do not fit together.
-    #[error("results.parquet: {0}")]
-    Columns(#[from] arrow::error::ArrowError),
+#[error("{}: {reason}", path.display())]
+pub struct GraphFileError {
+    /// The file.
+    pub path: PathBuf,
+    /// What the reader said.
+    pub reason: FormatError,
 }
 
-/// Runs an outlier sweep; `data` is the folder of graph files.
-///
-/// `done` is told each row as it comes, `missing` each file that is not there.
-///
-/// # Errors
-/// A file that is there and cannot be read as a graph.
-pub fn outlier_rows(
-    sweep: &OutlierSweep,
-    data: Option<&Path>,
-    mut missing: impl FnMut(&str),
-    mut done: impl FnMut(&OutlierRow),
-) -> Result<Vec<OutlierRow>, SweepError> {
-    let mut rows = Vec::new();
-    for &made in &sweep.synthetic {
-        let name = format!("{} (made up)", made.name());
-        match made {
-            SyntheticGraph::Manhattan => {
-                each(&name, &manhattan(3500, 1).graph, sweep, &mut rows, &mut done);
-            }
-            SyntheticGraph::City => each(&name, &city(3000, 1).graph, sweep, &mut rows, &mut done),
-            SyntheticGraph::Sphere => {
-                each(&name, &sphere(&Sphere::default()).graph, sweep, &mut rows, &mut done);
-            }
-            SyntheticGraph::Lattice => {
-                let params = Lattice { side: 10, ..Lattice::default() };
-                each(&name, &lattice(&params).graph, sweep, &mut rows, &mut done);
-            }
-        }
-    }
-    for file in &sweep.files {
-        let path = data.map(|data| data.join(file));
-        let Some((path, Ok(bytes))) = path.map(|path| (path.clone(), std::fs::read(&path))) else {
-            missing(file);
-            continue;
-        };
-        let graph = read(&bytes).map_err(|reason| SweepError::Graph { path, reason })?.graph;
-        let name = Path::new(file).file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        match graph {
-            AnyGraph::Plane(graph) => each(&name, &graph, sweep, &mut rows, &mut done),
-            AnyGraph::Space(graph) => each(&name, &graph, sweep, &mut rows, &mut done),
-        }
-    }
-    Ok(rows)
+/// An outlier sweep, ready to run.
+pub(crate) struct Outliers {
+    /// Its jobs: every method on every graph, share and seed.
+    pub(crate) plan: Plan,
+    /// Files that are not there; their jobs are left out.
+    pub(crate) missing: Vec<String>,
+    graphs: Vec<Option<Graph>>,
+    methods: Vec<Robust>,
+    shares: Vec<f64>,
+    seeds: u64,
 }
 
-/// Every share, seed and method on one graph.
-fn each<P: Rigid<D>, const D: usize>(
-    name: &str,
+/// A graph without wrong closures.
+struct Graph {
+    name: String,
+    source: Source,
+    /// Made when the first job asks for it.
+    clean: OnceLock<Clean>,
+}
+
+enum Source {
+    Made(SyntheticGraph),
+    File(AnyGraph),
+}
+
+/// A graph with its optimum.
+enum Clean {
+    Plane(FactorGraph<Se2, 3>, Vec<Se2>),
+    Space(FactorGraph<Se3, 6>, Vec<Se3>),
+}
+
+impl Outliers {
+    /// Reads the graph files; `data` is their folder.
+    ///
+    /// # Errors
+    /// A file that is there and cannot be read as a graph.
+    pub(crate) fn new(
+        name: &str,
+        sweep: &OutlierSweep,
+        data: Option<&Path>,
+    ) -> Result<Self, GraphFileError> {
+        let mut graphs: Vec<Option<Graph>> = Vec::new();
+        let mut missing = Vec::new();
+        let mut parts = vec![format!("{sweep:?}")];
+        for &made in &sweep.synthetic {
+            let name = format!("{} (made up)", made.name());
+            let source = Source::Made(made);
+            graphs.push(Some(Graph { name, source, clean: OnceLock::new() }));
+        }
+        for file in &sweep.files {
+            let path = data.map(|data| data.join(file));
+            let Some((path, Ok(bytes))) = path.map(|path| (path.clone(), std::fs::read(&path)))
+            else {
+                missing.push(file.clone());
+                graphs.push(None);
+                continue;
+            };
+            parts.push(Input::new(Path::new(file), &bytes).sha256);
+            let graph = read(&bytes).map_err(|reason| GraphFileError { path, reason })?.graph;
+            let name = Path::new(file).file_stem().unwrap_or_default().to_string_lossy();
+            let source = Source::File(graph);
+            graphs.push(Some(Graph { name: name.into_owned(), source, clean: OnceLock::new() }));
+        }
+        let methods: Vec<Robust> = (sweep.methods.iter())
+            .filter_map(|name| Robust::ALL.into_iter().find(|robust| robust.name() == name))
+            .collect();
+        let parts: Vec<&str> = parts.iter().map(String::as_str).collect();
+        let plan = Plan { name: name.to_owned(), identity: Plan::identity(&parts), jobs: vec![] };
+        let (shares, seeds) = (sweep.shares.clone(), sweep.seeds);
+        let mut sweep = Self { plan, missing, graphs, methods, shares, seeds };
+        sweep.plan.jobs = sweep.jobs();
+        Ok(sweep)
+    }
+
+    /// Every job of the graphs that are there; numbers count those of missing graphs, too.
+    fn jobs(&self) -> Vec<Job> {
+        let mut jobs = Vec::new();
+        for number in 0..self.graphs.len() * self.per_graph() {
+            let (graph, share, seed, method) = self.parts(number);
+            let Some(graph) = graph else { continue };
+            let labels = vec![
+                ("graph".to_owned(), Cell::Text(graph.name.clone())),
+                ("dimension".to_owned(), graph.dimension().into()),
+                ("share".to_owned(), share.into()),
+                ("seed".to_owned(), seed.into()),
+                ("method".to_owned(), method.name().into()),
+            ];
+            jobs.push(Job { number, labels });
+        }
+        jobs
+    }
+
+    fn per_graph(&self) -> usize {
+        self.shares.len() * self.seeds as usize * self.methods.len()
+    }
+
+    /// What a job's number stands for: methods count fastest, then seeds, shares, graphs.
+    fn parts(&self, number: usize) -> (Option<&Graph>, f64, u64, Robust) {
+        let method = self.methods[number % self.methods.len()];
+        let rest = number / self.methods.len();
+        let seed = (rest as u64 % self.seeds) + 1;
+        let rest = rest / self.seeds as usize;
+        let share = self.shares[rest % self.shares.len()];
+        (self.graphs[rest / self.shares.len()].as_ref(), share, seed, method)
+    }
+
+    /// Does one job of the plan.
+    pub(crate) fn run(&self, job: &Job) -> Outcome {
+        let (graph, share, seed, method) = self.parts(job.number);
+        match graph.map(|graph| graph.clean.get_or_init(|| graph.source.clean())) {
+            Some(Clean::Plane(graph, poses)) => judged(graph, poses, share, seed, method),
+            Some(Clean::Space(graph, poses)) => judged(graph, poses, share, seed, method),
+            None => Outcome::default(),
+        }
+    }
+}
+
+impl Graph {
+    fn dimension(&self) -> u64 {
+        match &self.source {
+            Source::Made(SyntheticGraph::Manhattan | SyntheticGraph::City) => 2,
+            Source::Made(SyntheticGraph::Sphere | SyntheticGraph::Lattice) => 3,
+            Source::File(AnyGraph::Plane(_)) => 2,
+            Source::File(AnyGraph::Space(_)) => 3,
+        }
+    }
+}
+
+impl Source {
+    fn clean(&self) -> Clean {
+        match self {
+            Self::Made(SyntheticGraph::Manhattan) => plane(manhattan(3500, 1).graph),
+            Self::Made(SyntheticGraph::City) => plane(city(3000, 1).graph),
+            Self::Made(SyntheticGraph::Sphere) => space(sphere(&Sphere::default()).graph),
+            Self::Made(SyntheticGraph::Lattice) => {
+                space(lattice(&Lattice { side: 10, ..Lattice::default() }).graph)
+            }
+            Self::File(AnyGraph::Plane(graph)) => plane(graph.clone()),
+            Self::File(AnyGraph::Space(graph)) => space(graph.clone()),
+        }
+    }
+}
+
+fn plane(graph: FactorGraph<Se2, 3>) -> Clean {
+    let poses = default_start(&graph, &Options::default()).solution.poses;
+    Clean::Plane(graph, poses)
+}
+
+fn space(graph: FactorGraph<Se3, 6>) -> Clean {
+    let poses = default_start(&graph, &Options::default()).solution.poses;
+    Clean::Space(graph, poses)
+}
+
+/// One method on one graph with wrong closures.
+///
+/// `rmse` is the root mean square distance of positions to the optimum without wrong closures, as a
+/// share of the longest side of its bounding box; both hold the first vertex. `precision` is the
+/// share of wrong closures among the rejected, `recall` that of rejected closures among the wrong;
+/// each is 1 where there are none to share. `noise_scale` is the variance of the errors in units of
+/// what the information matrices say.
+fn judged<P: Rigid<D>, const D: usize>(
     graph: &FactorGraph<P, D>,
-    sweep: &OutlierSweep,
-    rows: &mut Vec<OutlierRow>,
-    done: &mut impl FnMut(&OutlierRow),
-) {
-    let options = Options::default();
-    let clean = default_start(graph, &options).solution.poses;
-    let methods: Vec<Robust> = (sweep.methods.iter())
-        .filter_map(|name| Robust::ALL.into_iter().find(|robust| robust.name() == name))
-        .collect();
-    for &share in &sweep.shares {
-        for seed in 1..=sweep.seeds {
-            let made = with_outliers(graph, &clean, share, seed);
-            for &method in &methods {
-                let began = Instant::now();
-                let start = odometry(&made.graph);
-                let found = optimize_robust(&made.graph, &start, method, &options, &mut Off);
-                let secs = began.elapsed().as_secs_f64();
-                let hits = found.rejected.iter().filter(|k| made.wrong.binary_search(k).is_ok());
-                let hits = hits.count() as f64;
-                let of = |count: usize| if count == 0 { 1.0 } else { hits / count as f64 };
-                let (precision, recall) = (of(found.rejected.len()), of(made.wrong.len()));
-                let rmse = rmse(&found.solution.poses, &clean);
-                let row = OutlierRow {
-                    graph: name.to_owned(),
-                    dimension: P::DIM as u64,
-                    share,
-                    seed,
-                    method: method.name(),
-                    success: rmse <= RIGHT && precision >= NAMED && recall >= NAMED,
-                    rmse,
-                    precision,
-                    recall,
-                    wrong: made.wrong.len() as u64,
-                    rejected: found.rejected.len() as u64,
-                    noise_scale: found.noise_scale,
-                    iterations: found.iterations as u64,
-                    secs,
-                };
-                done(&row);
-                rows.push(row);
-            }
-        }
-    }
+    clean: &[P],
+    share: f64,
+    seed: u64,
+    method: Robust,
+) -> Outcome {
+    let made = with_outliers(graph, clean, share, seed);
+    let began = Instant::now();
+    let start = odometry(&made.graph);
+    let found = optimize_robust(&made.graph, &start, method, &Options::default(), &mut Off);
+    let secs = began.elapsed().as_secs_f64();
+    let hits = found.rejected.iter().filter(|k| made.wrong.binary_search(k).is_ok()).count() as f64;
+    let of = |count: usize| if count == 0 { 1.0 } else { hits / count as f64 };
+    let (precision, recall) = (of(found.rejected.len()), of(made.wrong.len()));
+    let rmse = rmse(&found.solution.poses, clean);
+    let success = rmse <= RIGHT && precision >= NAMED && recall >= NAMED;
+    let results = vec![
+        ("success".to_owned(), success.into()),
+        ("rmse".to_owned(), rmse.into()),
+        ("precision".to_owned(), precision.into()),
+        ("recall".to_owned(), recall.into()),
+        ("wrong".to_owned(), (made.wrong.len() as u64).into()),
+        ("rejected".to_owned(), (found.rejected.len() as u64).into()),
+        ("noise_scale".to_owned(), found.noise_scale.into()),
+        ("iterations".to_owned(), (found.iterations as u64).into()),
+    ];
+    let timing = vec![("secs".to_owned(), secs.into())];
+    Outcome { results: vec![results], timing: vec![timing], curves: vec![] }
 }
 
 /// Distance of positions as a share of the extent, first poses laid onto each other.
