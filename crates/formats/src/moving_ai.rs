@@ -103,12 +103,16 @@ fn size(number: usize, line: &str, value: &str) -> Result<u64, FormatError> {
     })
 }
 
+/// The tiles of the format.
+const TILES: &[u8] = b".GSWT@O";
+
 fn read_row(number: usize, line: &str, columns: usize) -> Result<&[u8], FormatError> {
-    if let Some(offset) = line.trim_end().bytes().position(|byte| !byte.is_ascii_graphic()) {
+    if let Some(offset) = line.trim_end().bytes().position(|byte| !TILES.contains(&byte)) {
         // The first byte that is no tile starts a character, as all before it are ASCII.
         let found = line.get(offset..).and_then(|rest| rest.chars().next());
         let found = quote(&found.map(String::from).unwrap_or_default());
-        return Err(FormatError::unexpected(position(number, line, offset), found, "a tile"));
+        let expected = "a tile, one of . G S W T @ O";
+        return Err(FormatError::unexpected(position(number, line, offset), found, expected));
     }
     let tiles = line.trim_end().as_bytes();
     if tiles.len() != columns {
@@ -182,7 +186,11 @@ mod tests {
             ),
             (
                 "type a\nheight 1\nwidth 3\nmap\n.ä.\n",
-                "line 5, column 2: found `ä`, expected a tile",
+                "line 5, column 2: found `ä`, expected a tile, one of . G S W T @ O",
+            ),
+            (
+                "type a\nheight 2\nwidth 3\nmap\n...\n.#.\n",
+                "line 6, column 2: found `#`, expected a tile, one of . G S W T @ O",
             ),
         ];
         for (text, message) in cases {
