@@ -80,10 +80,11 @@ impl Explorer {
                 self.started = true;
                 self.found_vertex(robot, None, probe);
                 self.scan(robot, probe);
-            } else if self.steps > self.params.max_steps {
-                self.finish(Ending::StepLimit, probe);
             } else {
                 self.act(robot, probe);
+            }
+            if self.ending.is_none() && self.steps >= self.params.max_steps {
+                self.finish(Ending::StepLimit, probe);
             }
         }
         self.report()

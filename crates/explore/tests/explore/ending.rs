@@ -153,8 +153,8 @@ proptest! {
         let params = ExploreParams { max_steps, ..ExploreParams::default() };
         let cut = explore(&world, relative(), drift(1.0), params, seed);
         prop_assert_eq!(cut.ending(), Some(Ending::StepLimit));
-        prop_assert_eq!(cut.reports.len() as u64, max_steps + 1);
-        let same = max_steps as usize;
+        prop_assert_eq!(cut.reports.len() as u64, max_steps);
+        let same = max_steps as usize - 1;
         prop_assert_eq!(&cut.reports[..same], &whole.reports[..same], "until then nothing differs");
     }
 }
