@@ -68,7 +68,10 @@ pub(super) fn read(
         }
     }
     if count == 0 {
-        let reason = reading.damage.unwrap_or_else(|| "it is empty".to_owned());
+        let reason = reading.damage.unwrap_or_else(|| match bytes {
+            0 => "it is empty".to_owned(),
+            bytes => format!("no message in its {bytes} bytes"),
+        });
         return Err(InstrumentError::NotARecording { path: path.to_owned(), reason });
     }
     let closed = messages.rrd_manifests().is_ok_and(|manifests| !manifests.is_empty());
