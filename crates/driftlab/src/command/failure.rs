@@ -44,7 +44,9 @@ impl From<ConfigError> for Failure {
 impl From<FolderError> for Failure {
     fn from(error: FolderError) -> Self {
         match error {
-            FolderError::Occupied { .. } => Self::Input(error.into()),
+            FolderError::Occupied { .. } | FolderError::Unwritable { .. } => {
+                Self::Input(error.into())
+            }
             _ => Self::Work(error.into()),
         }
     }

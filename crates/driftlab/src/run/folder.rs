@@ -34,6 +34,14 @@ pub enum FolderError {
         /// The file that was found.
         file: &'static str,
     },
+    /// The folder cannot be made, or nothing can be written there.
+    #[error("{}: cannot be written ({reason}); expected a folder for the run", folder.display())]
+    Unwritable {
+        /// The folder.
+        folder: PathBuf,
+        /// What the system said.
+        reason: io::Error,
+    },
     /// The system refused.
     #[error("{}: {reason}", path.display())]
     Io {
@@ -68,8 +76,8 @@ impl RunFolder {
     /// [`FolderError::Occupied`] where a run is there and `force` is not given.
     pub fn check(folder: &Path, force: bool) -> Result<(), FolderError> {
         if folder.exists() && !folder.is_dir() {
-            let reason = io::Error::other("it is a file; expected a folder");
-            return Err(FolderError::Io { path: folder.to_owned(), reason });
+            let reason = io::Error::other("it is a file");
+            return Err(FolderError::Unwritable { folder: folder.to_owned(), reason });
         }
         match names::ALL.into_iter().find(|name| folder.join(name).exists()) {
             Some(file) if !force => Err(FolderError::Occupied { folder: folder.to_owned(), file }),
@@ -86,7 +94,11 @@ impl RunFolder {
         let ancestors = folder.ancestors().take_while(|path| !path.as_os_str().is_empty());
         let made: Vec<PathBuf> =
             ancestors.take_while(|path| !path.exists()).map(Path::to_owned).collect();
-        fs::create_dir_all(folder).map_err(io_at(folder))?;
+        let refused = |reason| FolderError::Unwritable { folder: folder.to_owned(), reason };
+        fs::create_dir_all(folder).map_err(refused)?;
+        // Told now, not after the run.
+        let trial = folder.join(format!(".driftlab.{}.partial", std::process::id()));
+        fs::write(&trial, b"").and_then(|()| fs::remove_file(&trial)).map_err(refused)?;
         for name in names::ALL {
             let path = folder.join(name);
             if path.exists() {
