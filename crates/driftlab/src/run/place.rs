@@ -45,7 +45,7 @@ pub fn build_place(loaded: &Loaded) -> Result<Place, ConfigError> {
     let config = loaded.anchored();
     let Some(world) = &config.world else {
         // Loading refuses a config without one.
-        return Err(wrong(loaded, "", "no world".into()));
+        return Err(ConfigError::World { place: loaded.place(""), message: "no world".into() });
     };
     let mut files = Files::default();
     let built = build(world, &config, &mut files);
@@ -56,8 +56,12 @@ pub fn build_place(loaded: &Loaded) -> Result<Place, ConfigError> {
             Ok(Place { world: Arc::new(world), inputs, warnings })
         }
         Err(Trouble::File { path, message }) => {
-            let key = world.file().map_or("world", |(key, _)| key);
-            Err(wrong(loaded, key, format!("{}: {message}", path.display())))
+            let (key, named) = world.file().unwrap_or(("world", Path::new("")));
+            let place = loaded.place(key);
+            // The command line names the file where the message starts: once is enough.
+            let told = place.line_column.is_none() && path == named;
+            let file = if told { String::new() } else { format!("{}: ", path.display()) };
+            Err(ConfigError::World { place, message: format!("{file}{message}") })
         }
         Err(Trouble::World(error)) => {
             let key = match &error {
@@ -66,15 +70,12 @@ pub fn build_place(loaded: &Loaded) -> Result<Place, ConfigError> {
                 WorldError::Parameter { field, .. } => format!("world.{}.{field}", world.key()),
                 _ => format!("world.{}", world.key()),
             };
-            let file =
-                world.file().map_or_else(String::new, |(_, file)| format!("{}: ", file.display()));
-            Err(wrong(loaded, &key, format!("{file}{error}")))
+            let place = loaded.place(&key);
+            let named = world.file().filter(|_| place.line_column.is_some());
+            let file = named.map_or_else(String::new, |(_, file)| format!("{}: ", file.display()));
+            Err(ConfigError::World { place, message: format!("{file}{error}") })
         }
     }
-}
-
-fn wrong(loaded: &Loaded, key: &str, message: String) -> ConfigError {
-    ConfigError::World { place: loaded.place(key), message }
 }
 
 /// Why a place could not be built.
