@@ -162,7 +162,7 @@ fn the_table_is_the_result_and_messages_go_to_standard_error() {
     assert!(lines[1].starts_with("relative ") && lines[2].starts_with("grid "), "{text}");
     assert!(stderr(&output).contains("driftlab view here/run.rrd"), "{}", stderr(&output));
     let quiet = desk.driftlab(&["run", "a.toml", "--out", "there", "-q"]);
-    assert_eq!(stderr(&quiet), "");
+    assert_eq!((stdout(&quiet), stderr(&quiet)), (String::new(), String::new()));
 }
 
 #[test]
@@ -335,12 +335,40 @@ fn every_bad_input_gets_one_message_and_leaves_nothing() {
 }
 
 #[test]
-fn a_run_that_cannot_write_fails_with_one() {
+fn a_folder_that_cannot_be_written_is_told_before_the_run() {
     let desk = Desk::new(SMALL);
     desk.put("file", "");
-    let output = desk.driftlab(&["run", "a.toml", "--out", "file/r"]);
-    assert_eq!(code(&output), 1, "{}", stderr(&output));
+    for (out, reason) in [("file/r", "Not a directory"), ("file", "it is a file")] {
+        let output = desk.driftlab(&["run", "a.toml", "--out", out]);
+        assert_eq!(code(&output), 2, "{}", stderr(&output));
+        let message = format!("error: {out}: cannot be written ({reason}");
+        assert!(stderr(&output).starts_with(&message), "{}", stderr(&output));
+        assert!(stderr(&output).trim_end().ends_with("expected a folder for the run"));
+        assert_eq!(stderr(&output).lines().count(), 1, "{}", stderr(&output));
+    }
     assert_eq!(desk.listing(), ["a.toml", "file"]);
+}
+
+#[test]
+fn a_variant_that_the_command_line_replaces_is_told() {
+    let desk = Desk::new(SMALL);
+    let set = "world.paper.map=\"open\"";
+    let output = desk.driftlab(&["config", "show", "a.toml", "--set", set]);
+    let note = format!("note: --set {set}: world.paper replaces the config's world.maze\n");
+    assert_eq!((code(&output), stderr(&output)), (0, note));
+    let output = desk.driftlab(&["config", "show", "a.toml", "--set", "world.maze.rows=2"]);
+    assert_eq!(stderr(&output), "");
+}
+
+#[test]
+fn a_run_takes_as_many_steps_as_it_may() {
+    let desk = Desk::new(SMALL);
+    let sets = ["--set", "max_steps=5", "--set", "record.level=\"off\""];
+    let result = json(&desk.driftlab(&[&["run", "a.toml", "--json"][..], &sets].concat()));
+    for map in ["relative", "grid"] {
+        let map = &result["metrics"]["maps"][map];
+        assert_eq!((&map["steps"], &map["termination"]), (&5.into(), &"step_limit".into()));
+    }
 }
 
 #[test]
@@ -431,8 +459,12 @@ fn usage_is_told_with_exit_code_two() {
         assert_eq!(code(&output), 2, "{args:?}");
         assert!(!stderr(&output).is_empty() && stdout(&output).is_empty(), "{args:?}");
     }
-    desk.put("text.rrd", "no recording");
-    assert_eq!(code(&desk.driftlab(&["inspect", "text.rrd"])), 2);
+    for (text, reason) in [("", "it is empty"), ("short", "no message in its 5 bytes")] {
+        desk.put("text.rrd", text);
+        let output = desk.driftlab(&["inspect", "text.rrd"]);
+        assert_eq!(code(&output), 2);
+        assert!(stderr(&output).contains(reason), "{}", stderr(&output));
+    }
     for args in [&["--help"][..], &["run", "--help"], &["--version"]] {
         let output = desk.driftlab(args);
         assert_eq!((code(&output), stderr(&output).as_str()), (0, ""), "{args:?}");

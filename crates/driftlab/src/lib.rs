@@ -3,8 +3,10 @@
 pub mod command;
 pub mod config;
 mod files;
+mod report;
 pub mod run;
 pub mod sweep;
 mod table;
 
+pub use report::ReportError;
 pub use table::TableError;

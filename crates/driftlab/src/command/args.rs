@@ -69,19 +69,32 @@ pub(super) enum Command {
     /// Do the same work over many inputs and leave a table
     #[command(
         long_about = "Do the same work over many inputs and leave a table.\n\n\
-            The config says what: [graph.outliers] adds wrong loop closures to pose graphs and lets \
-            robust methods find them. The folder holds results.parquet, one row for each graph, share, \
-            seed and method, and timing.parquet with what depends on the clock. A table in Markdown \
-            is printed.\n\n\
+            An experiment with a table [sweep] is run for every combination of its axes' values and \
+            every seed: seed, seed + 1, and so on. The folder holds results.parquet, one row for each \
+            run and map, timing.parquet with what depends on the clock, and curves.parquet with the \
+            coverage over the distance; `driftlab report` makes tables and plots of them.\n\n\
+            In a config of pose graphs, [graph.outliers] adds wrong loop closures to pose graphs and lets \
+            robust methods find them: one row for each graph, share, seed and method.\n\n\
             Finished jobs are noted in a journal in the folder. A sweep that was killed goes on from \
             there when it is started again; the results are the same, byte for byte.",
         after_help = "Examples:\n  \
-            driftlab sweep configs/graph/outliers.toml\n  \
+            driftlab sweep configs/paper/noise.toml\n  \
+            driftlab sweep configs/paper/noise.toml --set sweep.seeds=30 --out /tmp/noise\n  \
             driftlab sweep configs/graph/outliers.toml --threads 1 --csv --out /tmp/outliers\n  \
-            driftlab sweep configs/graph/outliers.toml --shard 2/8 --out /shared/outliers\n  \
-            driftlab sweep configs/graph/outliers.toml --merge --out /shared/outliers"
+            driftlab sweep configs/paper/noise.toml --shard 2/8 --out /shared/noise\n  \
+            driftlab sweep configs/paper/noise.toml --merge --out /shared/noise"
     )]
     Sweep(SweepArgs),
+    /// Tables and plots from the folders of sweeps and runs
+    #[command(
+        long_about = "Tables and plots from the folders of sweeps and runs.\n\n\
+            Leaves report.html, one page that holds everything, and report.md with its plots in a \
+            folder beside it. Numbers that the sources print stand beside ours, where the config is \
+            theirs.",
+        after_help = "Examples:\n  \
+            driftlab report recordings/noise recordings/radius --out /tmp/report"
+    )]
+    Report(ReportArgs),
     /// Pose-graph files: tell, optimise, compare, convert, make up
     Graph(GraphArgs),
     /// Meshes: tell, combine
@@ -136,11 +149,14 @@ pub(super) struct RunArgs {
 
 #[derive(Debug, Args)]
 pub(super) struct SweepArgs {
-    /// The sweep: a TOML file
-    pub(super) config: PathBuf,
+    #[command(flatten)]
+    pub(super) input: ConfigInput,
     /// Folder of the results [default: recordings/NAME]
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
+    /// Record every run into this folder, as the config's table [record] says; else none is
+    #[arg(long, value_name = "DIR")]
+    pub(super) record: Option<PathBuf>,
     /// Write results.csv, too
     #[arg(long)]
     pub(super) csv: bool,
@@ -156,6 +172,19 @@ pub(super) struct SweepArgs {
     pub(super) merge: Option<Vec<PathBuf>>,
     /// Begin anew: drop what a sweep left in the folder
     #[arg(long, conflicts_with = "merge")]
+    pub(super) force: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct ReportArgs {
+    /// Folders that `driftlab sweep` or `driftlab run` left
+    #[arg(required = true, value_name = "DIR")]
+    pub(super) folders: Vec<PathBuf>,
+    /// Folder of the report [default: recordings/report]
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+    /// Replace the report that is in the folder already
+    #[arg(long)]
     pub(super) force: bool,
 }
 

@@ -12,7 +12,7 @@ use crate::config::{
 pub(super) fn config(args: &ConfigArgs, out: &Out) -> Result<(), Failure> {
     match &args.command {
         ConfigCommand::Show(input) => {
-            let loaded = load(input)?;
+            let loaded = load(input, out)?;
             let config = serde_json::to_value(&loaded.config).map_err(Failure::work)?;
             let origins = origins(&loaded);
             out.result(&json!({ "config": config, "origins": origins }), &resolved_toml(&loaded))
@@ -31,11 +31,13 @@ pub(super) fn config(args: &ConfigArgs, out: &Out) -> Result<(), Failure> {
 }
 
 /// Reads a config with what the command line lays over it.
-pub(super) fn load(input: &ConfigInput) -> Result<Loaded, Failure> {
+pub(super) fn load(input: &ConfigInput, out: &Out) -> Result<Loaded, Failure> {
     let world = match &input.world {
         Some(file) => Some((file.clone(), world_kind_of_file(file)?)),
         None => None,
     };
     let overrides = Overrides { sets: input.sets.clone(), world };
-    Ok(Loaded::read(&input.config, &overrides)?)
+    let loaded = Loaded::read(&input.config, &overrides)?;
+    loaded.notes().iter().for_each(|note| out.note(&format!("note: {note}")));
+    Ok(loaded)
 }

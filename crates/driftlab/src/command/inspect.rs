@@ -51,7 +51,7 @@ fn shown(inspection: &Inspection) -> String {
             vec![line.name.clone(), kind, line.first.to_string(), line.last.to_string()]
         })
         .collect();
-    text.push_str(&table(&["timeline", "kind", "first", "last"], &rows));
+    text.push_str(&table(&["timeline", "kind", "first", "last"], &rows, 1));
 
     text.push_str("\nEntities\n");
     let rows: Vec<Vec<String>> = inspection
@@ -61,7 +61,7 @@ fn shown(inspection: &Inspection) -> String {
             vec![entity.path.clone(), entity.rows.to_string(), entity.static_rows.to_string()]
         })
         .collect();
-    text.push_str(&table(&["entity", "rows", "static"], &rows));
+    text.push_str(&table(&["entity", "rows", "static"], &rows, 1));
 
     text.push_str("\nEvents\n");
     let rows: Vec<Vec<String>> = inspection
@@ -72,7 +72,7 @@ fn shown(inspection: &Inspection) -> String {
             vec![name, event.count.to_string()]
         })
         .collect();
-    text.push_str(&table(&["event", "count"], &rows));
+    text.push_str(&table(&["event", "count"], &rows, 1));
 
     match &inspection.metrics {
         Some(metrics) => text.push_str(&format!("\nFinal metrics\n{metrics:#}\n")),
@@ -92,5 +92,5 @@ fn shown_differences(differences: &[Difference]) -> String {
             vec![path, difference.what.clone()]
         })
         .collect();
-    table(&["where", "difference"], &rows)
+    table(&["where", "difference"], &rows, 1)
 }

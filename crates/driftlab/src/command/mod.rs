@@ -13,6 +13,7 @@ mod inspect;
 mod mesh;
 mod out;
 mod progress;
+mod report;
 mod run;
 mod sweep;
 mod table;
@@ -32,6 +33,7 @@ pub fn main() -> ExitCode {
     let result = match &cli.command {
         Command::Run(args) => run::run(args, &out),
         Command::Sweep(args) => sweep::sweep(args, &out),
+        Command::Report(args) => report::report(args, &out),
         Command::Graph(args) => graph::graph(args, &out),
         Command::Mesh(args) => mesh::mesh(args, &out),
         Command::Inspect(args) => inspect::inspect(args, &out),

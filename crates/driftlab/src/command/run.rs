@@ -18,7 +18,7 @@ use crate::run::{
 };
 
 pub(super) fn run(args: &RunArgs, out: &Out) -> Result<(), Failure> {
-    let loaded = load(&args.input)?;
+    let loaded = load(&args.input, out)?;
     let default = || PathBuf::from("recordings").join(&loaded.config.name);
     let dir = args.out.clone().unwrap_or_else(default);
     RunFolder::check(&dir, args.force)?;
@@ -113,7 +113,7 @@ fn report(dir: &Path, outcome: &Outcome, out: &Out) -> Result<(), Failure> {
         })
         .collect();
     let json = json!({ "dir": dir.display().to_string(), "metrics": metrics, "timing": timing });
-    out.result(&json, &table(&header, &rows))
+    out.summary(&json, &table(&header, &rows, 1))
 }
 
 /// One bar after the other, for the robot that is on its way.

@@ -1,5 +1,6 @@
 //! `driftlab sweep`: the same work over many inputs.
 
+use std::fs;
 use std::path::PathBuf;
 use std::thread::available_parallelism;
 use std::time::{Duration, Instant};
@@ -7,20 +8,36 @@ use std::time::{Duration, Instant};
 use anyhow::anyhow;
 use serde_json::{Map, Value, json};
 
-use super::args::SweepArgs;
+use super::args::{ConfigInput, SweepArgs};
+use super::config::load;
 use super::failure::Failure;
 use super::out::Out;
 use super::progress::Bar;
-use crate::config::Sweep;
-use crate::sweep::{Folder, Job, Outcome, Outliers, Plan, SweepError, each, markdown};
+use super::table::table;
+use crate::config::{Level, Sweep, is_graph_sweep, plain_toml};
+use crate::report::{self, Study, TextTable, groups};
+use crate::sweep::{
+    Experiments, Folder, Job, Outcome, Outliers, Plan, RunFailure, SweepError, each, file_names,
+    markdown,
+};
 use crate::table::{Cell, Table};
 
 /// The variable that names the folder of real data.
 const DATA: &str = "DRIFTLAB_DATA";
 
 pub(super) fn sweep(args: &SweepArgs, out: &Out) -> Result<(), Failure> {
-    let sweep = Sweep::read(&args.config)?.graph.outliers;
-    let name = args.config.file_stem().unwrap_or_default().to_string_lossy().into_owned();
+    let text = fs::read_to_string(&args.input.config).unwrap_or_default();
+    if is_graph_sweep(&text) { over_graphs(args, out) } else { over_experiments(args, out) }
+}
+
+fn over_graphs(args: &SweepArgs, out: &Out) -> Result<(), Failure> {
+    let ConfigInput { config, sets, world } = &args.input;
+    if !sets.is_empty() || world.is_some() || args.record.is_some() {
+        let found = "found --set, --world or --record with a sweep over pose graphs";
+        return Err(Failure::Input(anyhow!("{found}, expected none: edit the config")));
+    }
+    let sweep = Sweep::read(config)?.graph.outliers;
+    let name = config.file_stem().unwrap_or_default().to_string_lossy().into_owned();
     let data = std::env::var_os(DATA).map(PathBuf::from);
     let outliers = Outliers::new(&name, &sweep, data.as_deref());
     let outliers = outliers.map_err(|error| Failure::Input(error.into()))?;
@@ -28,10 +45,48 @@ pub(super) fn sweep(args: &SweepArgs, out: &Out) -> Result<(), Failure> {
         out.note(&format!("warning: {file}: not in the folder that ${DATA} names; left out"));
     }
     let plan = &outliers.plan;
-    let folder = conduct(args, plan, out, |job| Ok(outliers.run(job)))?;
-    let Some(folder) = folder else { return Ok(()) };
+    let Some(folder) = conduct(args, plan, out, |job| Ok(outliers.run(job)))? else {
+        return Ok(());
+    };
     let [(_, results), (_, timing), _] = folder.tables(plan);
     out.summary(&told(args, plan, &results, &timing), &markdown(&results, &timing))
+}
+
+fn over_experiments(args: &SweepArgs, out: &Out) -> Result<(), Failure> {
+    let loaded = load(&args.input, out)?;
+    if let Some(folder) = &args.record {
+        if loaded.config.record.level == Level::Off {
+            let hint = "expected record.level \"summary\" or \"full\" with --record";
+            return Err(Failure::Input(anyhow!("record.level is \"off\"; {hint}")));
+        }
+        fs::create_dir_all(folder).map_err(|reason| {
+            let hint = "expected a folder for recordings";
+            let folder = folder.display();
+            Failure::Input(anyhow!("{folder}: cannot be written ({reason}); {hint}"))
+        })?;
+    }
+    let experiments = Experiments::new(&loaded, args.record.clone())?;
+    experiments.warnings.iter().for_each(|warning| out.note(&format!("warning: {warning}")));
+    let plan = &experiments.plan;
+    let Some(folder) = conduct(args, plan, out, |job| Ok(experiments.run(job)?))? else {
+        return Ok(());
+    };
+    let mut config = String::new();
+    for line in loaded.header().lines() {
+        config.push_str(format!("# {line}").trim_end());
+        config.push('\n');
+    }
+    config.push('\n');
+    config.push_str(&plain_toml(&loaded.anchored()).map_err(Failure::work)?);
+    folder.write(file_names::CONFIG, config.as_bytes())?;
+    let provenance = experiments.provenance().map_err(Failure::work)?;
+    folder.write(file_names::PROVENANCE, provenance.as_bytes())?;
+    let [(_, results), (_, timing), (_, curves)] = folder.tables(plan);
+    let groups = groups(&results, &timing, &curves);
+    let study = Study { name: plan.name.clone(), groups, ..Study::default() };
+    let TextTable { header, rows, names } = report::results(&study);
+    let header: Vec<&str> = header.iter().map(String::as_str).collect();
+    out.summary(&told(args, plan, &results, &timing), &table(&header, &rows, names))
 }
 
 /// The folder of the results.
@@ -119,7 +174,7 @@ fn time_left(elapsed: Duration, finished: usize, all: usize) -> String {
         return "no job done yet".to_owned();
     }
     let secs = elapsed.as_secs_f64() / finished as f64 * (all - finished) as f64;
-    match secs as u64 {
+    match secs.round() as u64 {
         secs @ 0..100 => format!("{secs} s left"),
         secs @ 100..6000 => format!("{} min left", secs / 60),
         secs => format!("{} h {} min left", secs / 3600, secs % 3600 / 60),
@@ -156,6 +211,15 @@ impl From<SweepError> for Failure {
         match error {
             SweepError::Contradiction { .. } | SweepError::Table { .. } => Self::work(error),
             _ => Self::Input(error.into()),
+        }
+    }
+}
+
+impl From<RunFailure> for Failure {
+    fn from(failure: RunFailure) -> Self {
+        match failure {
+            RunFailure::Config(error) => error.into(),
+            RunFailure::Run(error) => Self::work(error),
         }
     }
 }

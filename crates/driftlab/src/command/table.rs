@@ -1,7 +1,7 @@
 //! A table for the terminal.
 
-/// Rows of equal length under a header; the first column is text, the others are numbers.
-pub(super) fn table(header: &[&str], rows: &[Vec<String>]) -> String {
+/// Rows of equal length under a header; the first `names` columns are text, the others numbers.
+pub(super) fn table(header: &[&str], rows: &[Vec<String>], names: usize) -> String {
     let count = |text: &str| text.chars().count();
     let width = |column: usize| {
         let cells = rows.iter().map(|row| row.get(column).map_or(0, |cell| count(cell)));
@@ -16,7 +16,7 @@ pub(super) fn table(header: &[&str], rows: &[Vec<String>]) -> String {
             let space = " ".repeat(width - count(cell));
             let gap = if column == 0 { "" } else { "  " };
             let (before, after) =
-                if column == 0 { ("", space.as_str()) } else { (space.as_str(), "") };
+                if column < names { ("", space.as_str()) } else { (space.as_str(), "") };
             line.push_str(&format!("{gap}{before}{cell}{after}"));
         }
         out.push_str(line.trim_end());
@@ -33,6 +33,6 @@ mod tests {
     fn columns_stand_under_each_other() {
         let rows = vec![vec!["relative".into(), "1.0".into()], vec!["grid".into(), "µ".into()]];
         let expected = "map       coverage\nrelative       1.0\ngrid             µ\n";
-        assert_eq!(table(&["map", "coverage"], &rows), expected);
+        assert_eq!(table(&["map", "coverage"], &rows, 1), expected);
     }
 }

@@ -102,6 +102,13 @@ fn limited(number: f64, shown: &str, node: &'static Json, path: &str, faults: &m
     faults.push(fault(path, shown.to_owned(), expected));
 }
 
+/// Keys that no sweep varies.
+const NO_AXES: [&str; 4] = ["name", "schema", "seed", "sweep"];
+
+fn first_key(path: &str) -> &str {
+    path.split('.').next().unwrap_or(path)
+}
+
 fn between_keys(config: &Config, faults: &mut Vec<Fault>) {
     if !is_folder_name(&config.name) {
         let expected = "letters, digits, `.`, `_` or `-`, not starting with `.` or `-`";
@@ -121,6 +128,12 @@ fn between_keys(config: &Config, faults: &mut Vec<Fault>) {
         let names: Vec<String> = maps.iter().map(|key| format!("\"{key}\"")).collect();
         let expected = format!("\"each\" or a map of this config: {}", names.join(", "));
         faults.push(fault("compare.drive", format!("{drive:?}"), expected));
+    }
+    let axes = config.sweep.iter().flat_map(|sweep| sweep.axes.iter());
+    for (axis, _) in axes.filter(|(axis, _)| NO_AXES.contains(&first_key(axis))) {
+        let found = format!("the axis `{axis}`");
+        let expected = "a key that makes a difference; seeds are counted up by `sweep.seeds`";
+        faults.push(fault(&join("sweep.axes", axis), found, expected.into()));
     }
     if let (Some([columns, rows]), Some(_)) = (config.metrics.grid, config.metrics.cell_m) {
         let found = format!("[{columns}, {rows}] beside `metrics.cell_m`");

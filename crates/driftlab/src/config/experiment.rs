@@ -3,7 +3,9 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Compare, Maps, Metrics, Odometry, Places, Planner, Record, Robot, Sensor, World};
+use super::{
+    Compare, Maps, Metrics, Odometry, Places, Planner, Record, Robot, RunSweep, Sensor, World,
+};
 
 /// One experiment: a place, a robot in it, and the maps that it builds.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
@@ -49,6 +51,9 @@ pub struct Config {
     pub metrics: Metrics,
     /// What the recording holds.
     pub record: Record,
+    /// What `driftlab sweep` varies; nobody else asks.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub sweep: Option<RunSweep>,
 }
 
 impl Default for Config {
@@ -70,6 +75,7 @@ impl Default for Config {
             compare: Compare::default(),
             metrics: Metrics::default(),
             record: Record::default(),
+            sweep: None,
         }
     }
 }

@@ -1,4 +1,4 @@
-//! The config of a sweep: the same work over many inputs.
+//! The config of a sweep over pose graphs: the same work over many inputs.
 
 use std::path::Path;
 
@@ -69,6 +69,15 @@ impl SyntheticGraph {
             Self::Lattice => "lattice",
         }
     }
+}
+
+/// Whether a text is the config of a sweep over pose graphs: it has a table `[graph]` and is no
+/// experiment.
+pub fn is_graph_sweep(text: &str) -> bool {
+    DeTable::parse(text).is_ok_and(|parsed| {
+        let table = parsed.get_ref();
+        table.contains_key("graph") && !table.contains_key("world") && !table.contains_key("map")
+    })
 }
 
 impl Sweep {

@@ -34,6 +34,9 @@ pub struct Loaded {
     spans: BTreeMap<String, Spans>,
     sources: Sources,
     header: String,
+    text: String,
+    overrides: Overrides,
+    notes: Vec<String>,
 }
 
 impl Loaded {
@@ -78,6 +81,7 @@ impl Loaded {
             lay_over(&mut document, moved(parsed.into_inner(), base));
         }
 
+        let mut notes = Vec::new();
         for set in &overrides.sets {
             let base = sources.add_set(set);
             let parsed = DeTable::parse(set);
@@ -95,6 +99,7 @@ impl Loaded {
             let over = moved(parsed.into_inner(), base);
             one_variant_each(&over, &sources)?;
             not_yet(&over, &sources)?;
+            notes.extend(replaced_variants(&document, &over, set));
             drop_alternatives(&mut document, &over);
             lay_over(&mut document, over);
         }
@@ -109,12 +114,50 @@ impl Loaded {
         if config.metrics.grid.is_some() && !spans.contains_key("metrics.cell_m") {
             config.metrics.cell_m = None;
         }
-        let loaded =
-            Self { config, path: path.to_owned(), spans, sources, header: header_of(text) };
+        let loaded = Self {
+            config,
+            path: path.to_owned(),
+            spans,
+            sources,
+            header: header_of(text),
+            text: text.to_owned(),
+            overrides: overrides.clone(),
+            notes,
+        };
         match loaded.first(faults(&loaded.config)) {
             Some(error) => Err(error),
             None => Ok(loaded),
         }
+    }
+
+    /// The same config with more values set, and nothing to sweep: one combination of a sweep.
+    ///
+    /// # Errors
+    /// The first thing wrong; what a set brings in is told at the axis that it is of, if it is of
+    /// one.
+    pub fn with(&self, sets: &[String]) -> Result<Self, ConfigError> {
+        let mut overrides = self.overrides.clone();
+        overrides.sets.extend(sets.iter().cloned());
+        let loaded = Self::from_text(&self.path, &self.text, &overrides);
+        let mut loaded = loaded.map_err(|error| self.at_axis(error, sets))?;
+        loaded.config.sweep = None;
+        Ok(loaded)
+    }
+
+    /// The error, told at the line of the axis where one of these sets brought it in.
+    pub(crate) fn at_axis(&self, mut error: ConfigError, sets: &[String]) -> ConfigError {
+        if let ConfigError::Value { place, .. } | ConfigError::World { place, .. } = &mut error
+            && let Some(set) = sets.iter().find(|set| place.text == format!("--set {set}"))
+            && let Some((key, _)) = set.split_once(" = ")
+        {
+            *place = self.place(&join("sweep.axes", key));
+        }
+        error
+    }
+
+    /// The text of the file.
+    pub fn text(&self) -> &str {
+        &self.text
     }
 
     fn first(&self, faults: Vec<Fault>) -> Option<ConfigError> {
@@ -135,6 +178,11 @@ impl Loaded {
     /// What the file says about itself: its first comment, without the `#`.
     pub fn header(&self) -> &str {
         &self.header
+    }
+
+    /// What the command line did that its author may not have meant, one line each.
+    pub fn notes(&self) -> &[String] {
+        &self.notes
     }
 
     /// Where the value of a dotted key was written; for one that was not, its table or the file.
@@ -199,6 +247,23 @@ fn drop_file_keys(document: &mut DeTable<'_>, kind: &str) {
             table.remove("yaml");
         }
     }
+}
+
+/// The variants that `over` replaces by others, told: the parameters of the old one go with it.
+fn replaced_variants(document: &DeTable<'_>, over: &DeTable<'_>, set: &str) -> Vec<String> {
+    let mut notes = Vec::new();
+    for name in VARIANTS {
+        let (Some(old), Some(new)) = (table_at(document, name), table_at(over, name)) else {
+            continue;
+        };
+        let key = |table: &DeTable<'_>| table.keys().next().map(|key| key.get_ref().to_string());
+        if let (Some(old), Some(new)) = (key(old), key(new))
+            && old != new
+        {
+            notes.push(format!("--set {set}: {name}.{new} replaces the config's {name}.{old}"));
+        }
+    }
+    notes
 }
 
 /// A size of the evaluation cells that the command line gives replaces the file's, whichever of the
@@ -267,10 +332,8 @@ pub(super) fn properties_of(name: &str) -> Vec<String> {
 }
 
 /// Tables that a config of this layout may hold one day, and what to do meanwhile.
-const NOT_YET: [(&str, &str, &str); 2] = [
-    ("", "sweep", "no sweep: this version runs one config at a time; set the axes with --set"),
-    ("map", "grid_corrected", "relative or grid: this version does not correct a grid yet"),
-];
+const NOT_YET: [(&str, &str, &str); 1] =
+    [("map", "grid_corrected", "relative or grid: this version does not correct a grid yet")];
 
 fn not_yet(document: &DeTable<'_>, sources: &Sources) -> Result<(), ConfigError> {
     for (parent, name, expected) in NOT_YET {

@@ -13,15 +13,18 @@
 //! | `source`, `document` | texts, spans, merging |
 //! | `schema`, `check` | ranges, from the types' attributes; rules between keys |
 //! | `explain`, `error` | the messages |
-//! | `sweep` | the config of a sweep |
+//! | `axes` | what a sweep of an experiment varies |
+//! | `graph_sweep` | the config of a sweep over pose graphs |
 //! | `show` | resolved config with origins, annotated defaults |
 
+mod axes;
 mod check;
 mod document;
 mod error;
 mod experiment;
 mod explain;
 mod generators;
+mod graph_sweep;
 mod load;
 mod maps;
 mod planner;
@@ -30,16 +33,17 @@ mod robot;
 mod schema;
 mod show;
 mod source;
-mod sweep;
 #[cfg(test)]
 mod tests;
 mod to_params;
 mod world;
 mod world_file;
 
+pub use axes::{Axes, RunSweep};
 pub use error::ConfigError;
 pub use experiment::{Config, Start};
 pub use generators::{CavesWorld, CorridorWorld, MazeWorld, Pillar, PillarsWorld, RoomsWorld};
+pub use graph_sweep::{GraphSweep, OutlierSweep, Sweep, SyntheticGraph, is_graph_sweep};
 pub use load::{Loaded, Overrides};
 pub use maps::{GridMap, Maps, Occlusion, RelativeMap};
 pub use planner::{Planner, RapidPlanner, SurveyPlanner};
@@ -48,7 +52,6 @@ pub use robot::{Odometry, Places, Robot, Sensor};
 pub use schema::{meaning, schema};
 pub use show::{defaults_toml, origins, plain_toml, resolved_toml};
 pub use source::{Origin, Place};
-pub use sweep::{GraphSweep, OutlierSweep, Sweep, SyntheticGraph};
 pub use world::{
     ImageWorld, MapServerWorld, MovingAiWorld, PaperMap, PaperWorld, PolygonsWorld, ThesisMap,
     ThesisWorld, World,

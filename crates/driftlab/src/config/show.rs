@@ -10,7 +10,7 @@ use super::schema::{Property, is_variant_table, properties, property_at, resolve
 use super::{
     CavesWorld, Config, CorridorWorld, GridMap, ImageWorld, Loaded, MapServerWorld, MazeWorld,
     MovingAiWorld, Origin, PaperWorld, PillarsWorld, PolygonsWorld, RapidPlanner, RelativeMap,
-    RoomsWorld, Start, SurveyPlanner, ThesisWorld,
+    RoomsWorld, RunSweep, Start, SurveyPlanner, ThesisWorld,
 };
 
 /// The resolved config as TOML, each value with its origin as a comment.
@@ -167,6 +167,14 @@ fn optional_tables() -> Vec<(&'static str, bool, toml::Table)> {
         ("map.grid", false, table_of(&GridMap::default())),
         ("planner.rapid", true, table_of(&RapidPlanner::default())),
         ("planner.survey", false, table_of(&SurveyPlanner::default())),
+        (
+            "sweep",
+            false,
+            table_of(&RunSweep {
+                axes: [("odometry.scale", [0.0, 0.5, 1.0].map(Value::Float).to_vec())].into(),
+                ..RunSweep::default()
+            }),
+        ),
     ]
 }
 

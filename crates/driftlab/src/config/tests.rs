@@ -94,6 +94,31 @@ fn a_grid_replaces_the_side_of_a_cell_and_the_other_way_round() {
 }
 
 #[test]
+fn axes_are_in_the_order_of_the_alphabet_however_they_are_written() {
+    let quoted = "[sweep]\naxes = { \"start_jitter_m\" = [1], \"odometry.scale\" = [0.0, 1] }\n";
+    let dotted = "[sweep.axes]\nodometry.scale = [0.0, 1]\nstart_jitter_m = [1]\n";
+    for text in [quoted, dotted] {
+        let loaded = load(&format!("{MAZE}{text}"), &["sweep.seeds=3"]).unwrap();
+        let sweep = loaded.config.sweep.as_ref().unwrap();
+        let axes: Vec<_> = sweep.axes.iter().map(|(key, values)| (key, values.len())).collect();
+        assert_eq!((sweep.seeds, axes), (3, vec![("odometry.scale", 2), ("start_jitter_m", 1)]));
+        let again = load(&plain_toml(&loaded.config).unwrap(), &[]).unwrap();
+        assert_eq!(again.config, loaded.config);
+    }
+}
+
+#[test]
+fn a_combination_is_a_config_of_its_own_and_its_mistakes_are_told_at_the_axis() {
+    let text = format!("{MAZE}[sweep.axes]\n\"odometry.scale\" = [0.5, -1]\n");
+    let loaded = load(&text, &["seed=7"]).unwrap();
+    let one = loaded.with(&["odometry.scale = 0.5".into()]).unwrap();
+    assert_eq!((one.config.odometry.scale, one.config.seed), (0.5, 7));
+    assert_eq!((one.config.sweep, &loaded.config.sweep.is_some()), (None, &true));
+    let error = loaded.with(&["odometry.scale = -1".into()]).unwrap_err().to_string();
+    assert!(error.starts_with("dir/a.toml:7:20: found -1.0 for `odometry.scale`"), "{error}");
+}
+
+#[test]
 fn files_are_relative_to_the_config() {
     let text = "[world.image]\nfile = \"floor.png\"\n[map.grid]\n";
     let loaded = Loaded::from_text(Path::new("/etc/a.toml"), text, &Overrides::default()).unwrap();
@@ -123,7 +148,11 @@ fn each_mistake_gets_one_message_at_its_place() {
     let (range, nan) =
         (with("[sensor]\nrays = 1\nfov_deg = 400\n"), with("[odometry]\nscale = nan\n"));
     let two = with("[world.maze]\ncolumns = 3\n");
-    let (sweep, corrected) = (with("[sweep]\nseeds = 3\n"), with("[map.grid_corrected]\n"));
+    let corrected = with("[map.grid_corrected]\n");
+    let no_seeds = with("[sweep]\nseeds = 0\n");
+    let no_list = with("[sweep.axes]\nodometry.scale = 1\n");
+    let seed_axis = with("[sweep.axes]\nseed = [1, 2]\n");
+    let no_value = with("[sweep]\naxes = { \"odometry.scale\" = [] }\n");
     let drive = with("[compare]\ndrive = \"grid\"\n");
     let both = with("[metrics]\ncell_m = 1\ngrid = [25, 20]\n");
     let no_rows = with("[metrics]\ngrid = [25, 0]\n");
@@ -147,7 +176,10 @@ fn each_mistake_gets_one_message_at_its_place() {
         ("[map.grid]\n", &[]),
         ("[world.paper]\n", &[]),
         ("[world.image]\nresolution_m = 0.1\n", &[]),
-        (&sweep, &[]),
+        (&no_seeds, &[]),
+        (&no_list, &[]),
+        (&no_value, &[]),
+        (&seed_axis, &[]),
         (&corrected, &[]),
         (&drive, &[]),
         (&both, &[]),

@@ -233,6 +233,12 @@ impl Rider {
             distance_m: verdict.distance_m,
             d_max_m: done_at_m,
             d_exp_m: verdict.d_exp_m,
+            all_seen_m: self.rows.iter().find(|row| row.coverage >= 1.0).map(|row| row.distance_m),
+            no_frontier_m: if steers {
+                verdict.believed_complete.then_some(verdict.distance_m)
+            } else {
+                self.done_at_m
+            },
             steps: explorer.steps(),
             scans: tally.scans,
             place_edges: place_edges as u64,

@@ -30,6 +30,11 @@ pub struct MapMetrics {
     pub d_max_m: Option<f64>,
     /// Mean distance at the first sight of a cell, metres; null unless complete and true.
     pub d_exp_m: Option<f64>,
+    /// Distance at which the last cell was first seen, metres; null unless every cell was.
+    pub all_seen_m: Option<f64>,
+    /// Distance at which the map believed that nothing was left, rightly or not, metres; null where
+    /// it never did.
+    pub no_frontier_m: Option<f64>,
     /// Steps of the loop.
     pub steps: u64,
     /// Scans taken.

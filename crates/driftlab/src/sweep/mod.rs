@@ -11,8 +11,12 @@
 //! | `parallel` | jobs on all cores |
 //! | `journal` | one line for each finished job; what a kill left of it |
 //! | `folder` | the files of a sweep, resuming, shards, merging |
+//! | `experiments` | one experiment over axes and seeds |
+//! | `curve` | coverage over distance, in few points |
 //! | `outliers`, `summary` | robust methods against wrong loop closures, and their table |
 
+mod curve;
+mod experiments;
 mod folder;
 mod job;
 mod journal;
@@ -20,11 +24,13 @@ mod outliers;
 mod parallel;
 mod summary;
 
+pub use experiments::RunFailure;
 pub use folder::SweepError;
 pub use journal::JournalError;
 pub use outliers::GraphFileError;
 
-pub(crate) use folder::Folder;
+pub(crate) use experiments::Experiments;
+pub(crate) use folder::{Folder, file_names};
 pub(crate) use job::{Job, Outcome, Plan, Shard};
 pub(crate) use outliers::Outliers;
 pub(crate) use parallel::each;

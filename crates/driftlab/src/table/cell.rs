@@ -47,6 +47,33 @@ impl Cell {
         })
     }
 
+    /// The value of a report; lists and objects become text.
+    pub(crate) fn from_json(value: &Value) -> Self {
+        match value {
+            Value::Null => Self::Null,
+            Value::Bool(flag) => Self::Flag(*flag),
+            Value::Number(number) => match number.as_u64() {
+                Some(count) => Self::Count(count),
+                None => number.as_f64().map_or(Self::Null, Self::Number),
+            },
+            Value::String(text) => Self::Text(text.clone()),
+            other => Self::Text(other.to_string()),
+        }
+    }
+
+    /// The value of a config; lists and tables become text.
+    pub(crate) fn from_toml(value: &toml::Value) -> Self {
+        match value {
+            toml::Value::Boolean(flag) => Self::Flag(*flag),
+            toml::Value::Integer(number) => {
+                u64::try_from(*number).map_or(Self::Number(*number as f64), Self::Count)
+            }
+            toml::Value::Float(number) => Self::Number(*number),
+            toml::Value::String(text) => Self::Text(text.clone()),
+            other => Self::Text(other.to_string()),
+        }
+    }
+
     /// The same in JSON; numbers that JSON cannot write are null.
     pub(crate) fn to_json(&self) -> Value {
         match self {

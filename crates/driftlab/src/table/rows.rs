@@ -102,6 +102,7 @@ impl Table {
 
 #[cfg(test)]
 mod tests {
+    use super::super::read_parquet;
     use super::*;
 
     fn row(cells: &[(&str, Cell)]) -> Row {
@@ -124,6 +125,18 @@ mod tests {
         assert_eq!(table.rows[2], ["d".into(), Cell::Null, Cell::Null, true.into()]);
         let csv = "name,steps,share,done\n\"a\"\"b\",3,1,\n\"c\",,0.5,\n\"d\",,,true\n";
         assert_eq!(table.to_csv(), csv);
+    }
+
+    #[test]
+    fn a_file_says_what_the_rows_said() {
+        let bytes = table().to_parquet().expect("a table");
+        assert_eq!(bytes, table().to_parquet().expect("a table"));
+        let file = tempfile::NamedTempFile::new().expect("a file");
+        std::fs::write(file.path(), bytes).expect("written");
+        let mut expected = table();
+        // A column has one kind: the widest of its cells.
+        expected.rows[0][2] = 1.0.into();
+        assert_eq!(read_parquet(file.path()).expect("read"), expected);
     }
 
     #[test]

@@ -68,7 +68,7 @@ pub(super) fn compare(args: &CompareArgs, out: &Out) -> Result<(), Failure> {
         shown(found.scale),
         args.delta.max(1),
     );
-    text.push_str(&table(&["", "rmse", "mean", "median", "min", "max"], &cells));
+    text.push_str(&table(&["", "rmse", "mean", "median", "min", "max"], &cells, 1));
     let json = json!({
         "poses_a": a.poses.len(),
         "poses_b": b.poses.len(),

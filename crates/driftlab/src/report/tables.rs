@@ -1,0 +1,182 @@
+//! The tables of a report.
+
+use super::published::beside;
+use super::stats::{Mean, Share};
+use super::{Group, Study};
+
+/// A table as people read it; the first `names` columns hold names, the others numbers.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(crate) struct TextTable {
+    /// One cell for each column.
+    pub(crate) header: Vec<String>,
+    /// The rows.
+    pub(crate) rows: Vec<Vec<String>>,
+    /// How many columns are names.
+    pub(crate) names: usize,
+}
+
+impl TextTable {
+    /// A table with a row for each group: the axes, the map, and what `of` tells.
+    fn of_groups(study: &Study, columns: &[&str], of: impl Fn(&Group) -> Vec<String>) -> Self {
+        let axes: Vec<String> = study.axes().into_iter().map(|(axis, _)| axis).collect();
+        let mut header = axes.clone();
+        header.push("map".to_owned());
+        header.extend(columns.iter().map(|&column| column.to_owned()));
+        let rows = study.groups.iter().map(|group| {
+            let mut row: Vec<String> = axes
+                .iter()
+                .map(|axis| group.axis(axis).map_or_else(String::new, |value| value.shown()))
+                .collect();
+            row.push(group.map.clone());
+            row.extend(of(group));
+            row
+        });
+        Self { header, rows: rows.collect(), names: axes.len() + 1 }
+    }
+}
+
+/// What came of the runs.
+pub(crate) fn results(study: &Study) -> TextTable {
+    let columns = [
+        "runs",
+        "complete and true",
+        "95 %",
+        "wrongly complete",
+        "coverage",
+        "least",
+        "d_max m",
+        "d_exp m",
+        "collisions",
+    ];
+    TextTable::of_groups(study, &columns, |group| {
+        let coverage = group.mean("coverage");
+        let least = group.runs.iter().filter_map(|run| run.number("coverage")).reduce(f64::min);
+        let collisions: f64 = group.runs.iter().filter_map(|run| run.number("collisions")).sum();
+        vec![
+            group.runs.len().to_string(),
+            count(group.success()),
+            interval(group.success()),
+            count(group.wrong()),
+            coverage.map_or_else(none, |mean| format!("{:.3}", mean.mean)),
+            least.map_or_else(none, |least| format!("{least:.3}")),
+            spread(group.mean("d_max_m"), group.runs.len()),
+            spread(group.mean("d_exp_m"), group.runs.len()),
+            format!("{collisions}"),
+        ]
+    })
+}
+
+/// How far the robot drove until every cell was seen, and until no frontier was left (\[Zie18\] 3.3).
+pub(crate) fn times(study: &Study) -> TextTable {
+    let columns =
+        ["every cell seen, m", "no frontier left, m", "after all was seen, m", "times the grid"];
+    TextTable::of_groups(study, &columns, |group| {
+        let after = group
+            .runs
+            .iter()
+            .filter_map(|run| Some(run.number("no_frontier_m")? - run.number("all_seen_m")?));
+        vec![
+            spread(group.mean("all_seen_m"), group.runs.len()),
+            spread(group.mean("no_frontier_m"), group.runs.len()),
+            spread(Mean::of(after), group.runs.len()),
+            study
+                .measured(group, "times_grid")
+                .map_or_else(none, |mean| format!("{:.2}", mean.mean)),
+        ]
+    })
+}
+
+/// What a step and a run cost: medians over the runs.
+pub(crate) fn costs(study: &Study) -> TextTable {
+    let columns = ["step, µs", "step p99, µs", "map, kB", "run, s"];
+    TextTable::of_groups(study, &columns, |group| {
+        let told = |name: &str, scale: f64, digits: usize| {
+            group.cost(name).map_or_else(none, |cost| format!("{:.digits$}", cost * scale))
+        };
+        vec![
+            told("step_micros_median", 1.0, 0),
+            told("step_micros_p99", 1.0, 0),
+            told("map_bytes_peak", 1e-3, 0),
+            told("wall_secs", 1.0, 2),
+        ]
+    })
+}
+
+/// Numbers that tell how right a map and its poses are, where any group has them; `None` where
+/// none has.
+pub(crate) fn accuracy(study: &Study) -> Option<TextTable> {
+    let mut names: Vec<&str> = Vec::new();
+    let runs = study.groups.iter().flat_map(|group| &group.runs);
+    for name in runs.flat_map(|run| run.results.keys()) {
+        if name.starts_with("accuracy") && !names.contains(&name.as_str()) {
+            names.push(name);
+        }
+    }
+    names.retain(|name| study.groups.iter().any(|group| group.mean(name).is_some()));
+    let short: Vec<&str> = names
+        .iter()
+        .map(|name| name.trim_start_matches("accuracy").trim_start_matches(['.', '_']))
+        .collect();
+    (!names.is_empty()).then(|| {
+        TextTable::of_groups(study, &short, |group| {
+            let told = |name: &&str| {
+                group
+                    .mean(name)
+                    .map_or_else(none, |mean| format!("{:.3} ± {:.3}", mean.mean, mean.deviation))
+            };
+            names.iter().map(told).collect()
+        })
+    })
+}
+
+/// Published numbers beside ours; `None` where nothing was published.
+pub(crate) fn published(study: &Study) -> Option<TextTable> {
+    let axes: Vec<String> = study.axes().into_iter().map(|(axis, _)| axis).collect();
+    let mut header = axes.clone();
+    let columns = ["map", "what", "source", "published", "ours", "runs", "difference"];
+    header.extend(columns.map(str::to_owned));
+    let mut rows = Vec::new();
+    for group in &study.groups {
+        for one in beside(study, group) {
+            let mut row: Vec<String> = axes
+                .iter()
+                .map(|axis| group.axis(axis).map_or_else(String::new, |value| value.shown()))
+                .collect();
+            let digits = if one.what.ends_with("_m") { 1 } else { 2 };
+            row.extend([
+                group.map.clone(),
+                one.what.clone(),
+                one.source.clone(),
+                format!("{:.digits$}", one.published),
+                one.ours.map_or_else(none, |ours| format!("{ours:.digits$}")),
+                one.runs.to_string(),
+                one.difference().map_or_else(none, |share| format!("{share:+.0} %")),
+            ]);
+            rows.push(row);
+        }
+    }
+    (!rows.is_empty()).then(|| TextTable { header, rows, names: axes.len() + 3 })
+}
+
+fn none() -> String {
+    "–".to_owned()
+}
+
+fn count(share: Option<Share>) -> String {
+    share.map_or_else(none, |share| format!("{}/{}", share.hits, share.of))
+}
+
+fn interval(share: Option<Share>) -> String {
+    share.map_or_else(none, |share| format!("{:.2}–{:.2}", share.low, share.high))
+}
+
+/// Mean and deviation; with the number of samples where not all runs gave one.
+fn spread(mean: Option<Mean>, runs: usize) -> String {
+    match mean {
+        None => none(),
+        Some(Mean { count, mean, deviation }) if count == runs => {
+            format!("{mean:.1} ± {deviation:.1}")
+        }
+        Some(Mean { count, mean, deviation }) => format!("{mean:.1} ± {deviation:.1} ({count})"),
+    }
+}
