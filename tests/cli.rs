@@ -1,10 +1,11 @@
 //! The command as a user meets it: results, messages, exit codes, and what is left on the disk.
 
-use std::fs;
-use std::path::{Path, PathBuf};
-use std::process::Output;
+mod desk;
 
-use assert_cmd::Command;
+use std::fs;
+use std::path::PathBuf;
+
+use desk::{Desk, code, json, root, stderr, stdout};
 use serde_json::Value;
 
 /// A run that takes well below a second: two robots in a small generated maze.
@@ -23,78 +24,6 @@ rows = 3
 [record]
 level = "summary"
 "#;
-
-/// A folder of its own, with a config in it.
-struct Desk {
-    folder: tempfile::TempDir,
-}
-
-impl Desk {
-    fn new(config: &str) -> Self {
-        let folder = tempfile::tempdir().expect("a temporary folder");
-        fs::write(folder.path().join("a.toml"), config).expect("a config");
-        Self { folder }
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
-    }
-
-    fn put(&self, name: &str, text: &str) {
-        fs::write(self.path(name), text).expect("a file");
-    }
-
-    fn driftlab(&self, args: &[&str]) -> Output {
-        self.driftlab_with(args, &[])
-    }
-
-    fn driftlab_with(&self, args: &[&str], env: &[(&str, &str)]) -> Output {
-        let mut command = Command::cargo_bin("driftlab").expect("the binary is built");
-        command.current_dir(self.folder.path()).args(args).envs(env.iter().copied());
-        command.output().expect("it starts")
-    }
-
-    /// Every file and folder, by its path from here.
-    fn listing(&self) -> Vec<String> {
-        fn walk(folder: &Path, root: &Path, all: &mut Vec<String>) {
-            for entry in fs::read_dir(folder).expect("a folder") {
-                let path = entry.expect("an entry").path();
-                let name = path.strip_prefix(root).expect("below the root");
-                all.push(name.to_string_lossy().replace('\\', "/"));
-                if path.is_dir() {
-                    walk(&path, root, all);
-                }
-            }
-        }
-        let mut all = Vec::new();
-        walk(self.folder.path(), self.folder.path(), &mut all);
-        all.sort();
-        all
-    }
-}
-
-fn code(output: &Output) -> i32 {
-    output.status.code().expect("it ended by itself")
-}
-
-fn stdout(output: &Output) -> String {
-    String::from_utf8(output.stdout.clone()).expect("UTF-8")
-}
-
-fn stderr(output: &Output) -> String {
-    String::from_utf8(output.stderr.clone()).expect("UTF-8")
-}
-
-fn json(output: &Output) -> Value {
-    assert_eq!(code(output), 0, "{}", stderr(output));
-    let text = stdout(output);
-    assert_eq!(text.trim_end().lines().count(), 1, "one object and nothing else: {text}");
-    serde_json::from_str(&text).expect("JSON")
-}
-
-fn root() -> PathBuf {
-    Path::new(env!("CARGO_MANIFEST_DIR")).join("../..")
-}
 
 /// The names under a map of `metrics.json` that scripts rely on.
 const METRIC_NAMES: [&str; 17] = [
