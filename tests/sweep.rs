@@ -134,8 +134,8 @@ fn another_sweep_and_bad_axes_are_refused() {
     desk.put("key.toml", &SWEEP.replace("odometry.scale", "odometry.noise"));
     for (config, message) in [
         ("none.toml", "none.toml: found no [sweep], expected"),
-        ("bad.toml", "bad.toml:15:57: found -1.0 for `odometry.scale`, expected"),
-        ("key.toml", "key.toml:15:57: found unknown key `odometry.noise`, expected"),
+        ("bad.toml", "bad.toml:15:62: found -1.0 for `odometry.scale`, expected"),
+        ("key.toml", "key.toml:15:62: found unknown key `odometry.noise`, expected"),
     ] {
         let output = desk.driftlab(&["sweep", config, "--out", "none"]);
         assert_eq!(code(&output), 2);
@@ -151,16 +151,22 @@ fn another_sweep_and_bad_axes_are_refused() {
 #[test]
 fn graph_sweeps_are_resumed_too() {
     let desk = Desk::new(
-        "[graph.outliers]\nsynthetic = [\"lattice\"]\nfiles = [\"gone.g2o\"]\n\
-         methods = [\"none\", \"huber\"]\nshares = [0.1]\nseeds = 1\n",
+        "[graph.outliers]\nfiles = [\"gone.g2o\", \"city.g2o\"]\n\
+         methods = [\"none\", \"huber\"]\nshares = [0.3]\nseeds = 1\n",
     );
-    let sweep = |more: &[&str]| desk.driftlab(&[&["sweep", "a.toml"][..], more].concat());
+    let made = ["graph", "generate", "city", "--poses", "60", "-o", "city.g2o"];
+    assert_eq!(code(&desk.driftlab(&made)), 0);
+    let data = desk.folder.path().to_string_lossy().into_owned();
+    let sweep = |more: &[&str]| {
+        let args = [&["sweep", "a.toml"][..], more].concat();
+        desk.driftlab_with(&args, &[("DRIFTLAB_DATA", &data)])
+    };
     let first = sweep(&["--out", "r", "--shard", "1/2"]);
     assert_eq!(code(&first), 0, "{}", stderr(&first));
     assert!(stderr(&first).contains("warning: gone.g2o"), "{}", stderr(&first));
     let output = sweep(&["--out", "r", "--threads", "1"]);
     assert!(stderr(&output).contains("1 of 2 jobs were done before"), "{}", stderr(&output));
-    assert!(stdout(&output).starts_with("| graph | method | 10 % wrong |"), "{}", stdout(&output));
+    assert!(stdout(&output).starts_with("| graph | method | 30 % wrong |"), "{}", stdout(&output));
     assert_eq!(code(&sweep(&["--out", "w"])), 0);
     let results = |folder: &str| fs::read(desk.path(folder).join("results.parquet")).expect("rows");
     assert_eq!(results("r"), results("w"));

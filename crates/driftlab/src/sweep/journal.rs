@@ -164,9 +164,8 @@ fn entries(path: &Path, bytes: &[u8], plan: &Plan) -> Result<(Vec<Entry>, usize)
 fn told(header: &Value) -> String {
     let word = |key: &str| header[key].as_str().unwrap_or("?").to_owned();
     let short = |text: String| text.chars().take(8).collect::<String>();
-    format!("{}, driftlab {} {}, {}", word("sweep"), word("version"), word("git_hash"), {
-        short(word("identity"))
-    })
+    let (hash, identity) = (short(word("git_hash")), short(word("identity")));
+    format!("{}, driftlab {} {hash}, {identity}", word("sweep"), word("version"))
 }
 
 /// Each cell is written as text, so that numbers come back bit for bit.
