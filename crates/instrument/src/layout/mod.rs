@@ -2,6 +2,7 @@
 
 mod arrange;
 mod graph;
+mod parts;
 mod solid;
 mod text;
 mod views;

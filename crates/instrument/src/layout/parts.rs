@@ -83,3 +83,9 @@ pub(super) fn background() -> Background {
     Background::new(BackgroundKind::SolidColor)
         .with_color(rerun::Color::from_u32(palette::BACKGROUND))
 }
+
+/// What lies behind a view of space.
+pub(super) fn night() -> Background {
+    let night = rerun::Color::from_rgb(16, 18, 24);
+    Background::new(BackgroundKind::SolidColor).with_color(night)
+}

@@ -1,12 +1,12 @@
 //! Which views the recording of work on a mesh opens with.
 
-use rerun::external::re_sdk_types::blueprint::archetypes::{Background, TextLogColumns};
-use rerun::external::re_sdk_types::blueprint::components::{BackgroundKind, ContainerKind};
-use rerun::external::re_sdk_types::blueprint::datatypes::{TextLogColumn, TextLogColumnKind};
-use rerun::{RecordingStream, RecordingStreamBuilder, RecordingStreamResult};
+use rerun::external::re_sdk_types::blueprint::components::ContainerKind;
+use rerun::external::re_sdk_types::blueprint::datatypes::TextLogColumnKind;
+use rerun::{RecordingStream, RecordingStreamResult};
 
 use super::arrange::{Layout, View};
-use crate::recording::{ABOUT, RESULT, send_layout};
+use super::parts::{night, send_written};
+use crate::recording::{ABOUT, RESULT};
 
 /// Sends the layout: space on the left; text and events on the right. `panels` are the 3D views: a
 /// title, and the entities that each shows.
@@ -14,18 +14,11 @@ pub(crate) fn send_solid(
     stream: &RecordingStream,
     panels: &[(&str, &[&str])],
 ) -> Result<(), String> {
-    let store = RecordingStreamBuilder::new("driftlab").blueprint().memory();
-    let (blueprint, storage) = store.map_err(|e| e.to_string())?;
-    blueprint.set_time_sequence("blueprint", 0);
-    write(&blueprint, panels).map_err(|e| e.to_string())?;
-    send_layout(stream, storage.take());
-    Ok(())
+    send_written(stream, |layout| write(layout, panels))
 }
 
-fn write(stream: &RecordingStream, panels: &[(&str, &[&str])]) -> RecordingStreamResult<()> {
-    let mut layout = Layout { stream, count: 0 };
-    let night = rerun::Color::from_rgb(16, 18, 24);
-    let dark = Background::new(BackgroundKind::SolidColor).with_color(night);
+fn write(layout: &mut Layout<'_>, panels: &[(&str, &[&str])]) -> RecordingStreamResult<()> {
+    let dark = night();
     let mut spaces = Vec::new();
     for (title, entities) in panels {
         spaces.push(layout.view(&View {
@@ -38,27 +31,9 @@ fn write(stream: &RecordingStream, panels: &[(&str, &[&str])]) -> RecordingStrea
     }
     let shares = vec![1.0; spaces.len()];
     let space = layout.container(ContainerKind::Vertical, &spaces, &shares)?;
-    let mut texts = Vec::new();
-    for (name, origin) in [("read me", ABOUT), ("result", RESULT)] {
-        texts.push(layout.view(&View {
-            class: "TextDocument",
-            name: name.to_owned(),
-            origin: format!("/{origin}"),
-            contents: vec!["+ $origin".to_owned()],
-            properties: vec![],
-        })?);
-    }
-    let texts = layout.container(ContainerKind::Tabs, &texts, &[])?;
-    let columns = TextLogColumns::update_fields().with_text_log_columns(
-        [TextLogColumnKind::Body].map(|kind| TextLogColumn { visible: true.into(), kind }),
-    );
-    let events = layout.view(&View {
-        class: "TextLog",
-        name: "events".to_owned(),
-        origin: "/events".to_owned(),
-        contents: vec!["+ $origin/**".to_owned()],
-        properties: vec![("TextLogColumns", &columns)],
-    })?;
+    let texts = layout.texts(&[("read me", ABOUT), ("result", RESULT)])?;
+    let contents = vec!["+ $origin/**".to_owned()];
+    let events = layout.log("/events", contents, [TextLogColumnKind::Body])?;
     let side = layout.container(ContainerKind::Vertical, &[texts, events], &[1.0, 1.0])?;
     layout.container(ContainerKind::Horizontal, &[space, side], &[2.4, 1.0])?;
     layout.finish("event", 2.0, false)

@@ -1,43 +1,32 @@
 //! Which views a recording opens with.
 
 use geometry::Point2;
-use rerun::RecordingStream;
-use rerun::RecordingStreamBuilder;
-use rerun::RecordingStreamResult;
-use rerun::external::re_sdk_types::blueprint::archetypes::{
-    Background, PlotLegend, TextLogColumns, VisualBounds2D,
-};
-use rerun::external::re_sdk_types::blueprint::components::{
-    BackgroundKind, ContainerKind, Corner2D,
-};
-use rerun::external::re_sdk_types::blueprint::datatypes::{TextLogColumn, TextLogColumnKind};
+use rerun::external::re_sdk_types::blueprint::archetypes::VisualBounds2D;
+use rerun::external::re_sdk_types::blueprint::components::{ContainerKind, Corner2D};
+use rerun::external::re_sdk_types::blueprint::datatypes::TextLogColumnKind;
+use rerun::{RecordingStream, RecordingStreamResult};
 
 use super::arrange::{Layout, Property, View, Written};
-use crate::recording::{ABOUT, CONFIG, RESULT, send_layout};
-use crate::{Centre, Level, MapOptions, RecordingOptions, palette};
+use super::parts::{background, send_written};
+use crate::recording::{ABOUT, CONFIG, RESULT};
+use crate::{Centre, Level, MapOptions, RecordingOptions};
 
 /// Sends the layout of a recording.
 pub(crate) fn send(stream: &RecordingStream, options: &RecordingOptions) -> Result<(), String> {
-    let store = RecordingStreamBuilder::new("driftlab").blueprint().memory();
-    let (blueprint, storage) = store.map_err(|e| e.to_string())?;
-    blueprint.set_time_sequence("blueprint", 0);
-    write(&blueprint, options).map_err(|e| e.to_string())?;
-    send_layout(stream, storage.take());
-    Ok(())
+    send_written(stream, |layout| write(layout, options))
 }
 
-fn write(stream: &RecordingStream, options: &RecordingOptions) -> RecordingStreamResult<()> {
-    let mut layout = Layout { stream, count: 0 };
+fn write(layout: &mut Layout<'_>, options: &RecordingOptions) -> RecordingStreamResult<()> {
     let mut rows = Vec::new();
     for map in &options.maps {
-        rows.push(map_row(&mut layout, map, options)?);
+        rows.push(map_row(layout, map, options)?);
     }
     let maps = if rows.len() == 1 {
         rows.remove(0)
     } else {
         layout.container(ContainerKind::Vertical, &rows, &vec![1.0; rows.len()])?
     };
-    let side = side(&mut layout, options)?;
+    let side = side(layout, options)?;
     layout.container(ContainerKind::Horizontal, &[maps, side], &[3.0, 1.35])?;
     layout.finish("step", 8.0, options.follow)
 }
@@ -137,30 +126,13 @@ fn map_row(
 
 /// Text, plots and the log of events, for all maps.
 fn side(layout: &mut Layout<'_>, options: &RecordingOptions) -> RecordingStreamResult<Written> {
-    let mut texts = Vec::new();
-    for (name, origin) in [("read me", ABOUT), ("config", CONFIG), ("result", RESULT)] {
-        texts.push(layout.view(&View {
-            class: "TextDocument",
-            name: name.to_owned(),
-            origin: format!("/{origin}"),
-            contents: vec!["+ $origin".to_owned()],
-            properties: vec![],
-        })?);
-    }
-    let texts = layout.container(ContainerKind::Tabs, &texts, &[])?;
-    let legend = PlotLegend::new().with_corner(Corner2D::LeftTop);
+    let texts = layout.texts(&[("read me", ABOUT), ("config", CONFIG), ("result", RESULT)])?;
     let plot = |layout: &mut Layout<'_>, name: &str, series: &[&str]| {
         let of_map = |map: &MapOptions| {
             let path = format!("/{}/metrics", map.name);
-            series.iter().map(move |one| format!("+ {path}/{one}")).collect::<Vec<_>>()
+            series.iter().map(move |one| format!("{path}/{one}")).collect::<Vec<_>>()
         };
-        layout.view(&View {
-            class: "TimeSeries",
-            name: name.to_owned(),
-            origin: "/".to_owned(),
-            contents: options.maps.iter().flat_map(of_map).collect(),
-            properties: vec![("PlotLegend", &legend)],
-        })
+        layout.plot(name, Corner2D::LeftTop, options.maps.iter().flat_map(of_map))
     };
     let coverage = plot(layout, "coverage", &["coverage"])?;
     let frontier = plot(layout, "open frontier, m", &["frontier_open_m"])?;
@@ -176,19 +148,10 @@ fn side(layout: &mut Layout<'_>, options: &RecordingOptions) -> RecordingStreamR
     let mut parts = vec![texts, coverage, more];
     let mut shares = vec![1.5, 1.0, 1.0];
     if options.level == Level::Full {
-        let columns = TextLogColumns::update_fields().with_text_log_columns(
-            [TextLogColumnKind::EntityPath, TextLogColumnKind::Body]
-                .map(|kind| TextLogColumn { visible: true.into(), kind }),
-        );
         let contents =
             options.maps.iter().map(|map| format!("+ /{}/events/**", map.name)).collect();
-        parts.push(layout.view(&View {
-            class: "TextLog",
-            name: "events".to_owned(),
-            origin: "/".to_owned(),
-            contents,
-            properties: vec![("TextLogColumns", &columns)],
-        })?);
+        let columns = [TextLogColumnKind::EntityPath, TextLogColumnKind::Body];
+        parts.push(layout.log("/", contents, columns)?);
         shares.push(1.2);
     }
     layout.container(ContainerKind::Vertical, &parts, &shares)
@@ -200,9 +163,4 @@ fn bounds(low: &Point2, high: &Point2, margin_m: f64) -> VisualBounds2D {
         x_range: [low.x - margin_m, high.x + margin_m].into(),
         y_range: [-high.y - margin_m, -low.y + margin_m].into(),
     })
-}
-
-pub(super) fn background() -> Background {
-    Background::new(BackgroundKind::SolidColor)
-        .with_color(rerun::Color::from_u32(palette::BACKGROUND))
 }
