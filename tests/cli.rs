@@ -221,6 +221,34 @@ fn inspect_tells_what_a_run_recorded() {
     assert!(text.contains("distance_mm") && text.contains("believed_complete"), "{text}");
     let same = json(&desk.driftlab(&["inspect", "r", "--diff", "r", "--json"]));
     assert_eq!(same["differences"], Value::Array(Vec::new()));
+    assert_eq!(same["first_difference"], Value::Null);
+}
+
+#[test]
+fn two_recordings_are_told_apart() {
+    let desk = Desk::new(SMALL);
+    for (out, scale) in [("a", "odometry.scale=0.5"), ("b", "odometry.scale=1.0")] {
+        assert_eq!(code(&desk.driftlab(&["run", "a.toml", "--out", out, "--set", scale])), 0);
+    }
+    let result = json(&desk.driftlab(&["inspect", "a", "--diff", "b", "--json"]));
+    let all = result["differences"].as_array().expect("a list");
+    let first = &result["first_difference"];
+    assert!(all.contains(first), "{first}");
+    assert_eq!(first["timeline"], "step");
+    let steps = all.iter().filter(|one| one["timeline"] == "step");
+    let least = steps.filter_map(|one| one["at"].as_i64()).min();
+    assert!(least.is_some() && first["at"].as_i64() == least, "{first}");
+    let metrics = |of: &str| -> Value {
+        let text = fs::read(desk.path(of).join("metrics.json")).unwrap();
+        serde_json::from_slice::<Value>(&text).unwrap()["maps"]["relative"]["distance_m"].clone()
+    };
+    let told = &result["metric_differences"]["relative.distance_m"];
+    assert_eq!((&told["a"], &told["b"]), (&metrics("a"), &metrics("b")));
+    let by = metrics("b").as_f64().zip(metrics("a").as_f64()).map(|(b, a)| b - a);
+    assert_eq!(told["difference"].as_f64(), by);
+    let text = stdout(&desk.driftlab(&["inspect", "a", "--diff", "b"]));
+    assert!(text.starts_with("first difference at step "), "{text}");
+    assert!(text.contains("relative.distance_m"), "{text}");
 }
 
 #[test]

@@ -28,6 +28,30 @@ pub struct Difference {
     pub component: String,
     /// What differs, in words.
     pub what: String,
+    /// Where the first row that differs stands on each timeline; empty for what holds at all times.
+    pub times: Vec<(String, i64)>,
+}
+
+/// The timelines by which differences are put in order, the first that they have.
+const ORDER: [&str; 4] = ["step", "iteration", "event", "sim_time"];
+
+impl Difference {
+    /// Where it stands: the name of the timeline that counts, and the time on it.
+    pub fn place(&self) -> Option<(&str, i64)> {
+        let on = |name: &str| self.times.iter().find(|(own, _)| own == name);
+        let place = ORDER.iter().find_map(|name| on(name)).or(self.times.first());
+        place.map(|(name, at)| (name.as_str(), *at))
+    }
+
+    /// The first of some differences in time: by step, then by event. What holds at all times, such
+    /// as the config, comes first only where nothing else differs.
+    pub fn first(differences: &[Self]) -> Option<&Self> {
+        let event = |one: &Self| one.times.iter().find(|(name, _)| name == "event").map(|at| at.1);
+        differences.iter().min_by_key(|one| {
+            let at = one.place().map(|(_, at)| at);
+            (at.is_none(), at, event(one).unwrap_or(i64::MAX))
+        })
+    }
 }
 
 fn rows(path: &Path) -> Result<Rows, InstrumentError> {
@@ -77,14 +101,24 @@ pub fn diff(a: &Path, b: &Path) -> Result<Vec<Difference>, InstrumentError> {
     let none = Vec::new();
     for key in keys {
         let (left, right) = (a.get(key).unwrap_or(&none), b.get(key).unwrap_or(&none));
-        let what = match left.iter().zip(right).find(|(l, r)| l != r) {
-            Some((l, r)) if l.times == r.times => format!("other content at {}", when(l)),
-            Some((l, r)) => format!("rows part at {} and {}", when(l), when(r)),
+        let (what, row) = match left.iter().zip(right).find(|(l, r)| l != r) {
+            Some((l, r)) if l.times == r.times => {
+                (format!("other content at {}", when(l)), Some(l))
+            }
+            Some((l, r)) => {
+                let first = if l.times <= r.times { l } else { r };
+                (format!("rows part at {} and {}", when(l), when(r)), Some(first))
+            }
             None if left.len() == right.len() => continue,
-            None => format!("{} rows against {}", left.len(), right.len()),
+            None => {
+                let longer = if left.len() > right.len() { left } else { right };
+                let what = format!("{} rows against {}", left.len(), right.len());
+                (what, longer.get(left.len().min(right.len())))
+            }
         };
         let (entity, component) = key.clone();
-        differences.push(Difference { entity, component, what });
+        let times = row.map_or_else(Vec::new, |row| row.times.clone());
+        differences.push(Difference { entity, component, what, times });
     }
     Ok(differences)
 }
