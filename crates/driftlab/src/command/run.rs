@@ -19,6 +19,9 @@ use crate::run::{
 
 pub(super) fn run(args: &RunArgs, out: &Out) -> Result<(), Failure> {
     let loaded = load(&args.input, out)?;
+    if loaded.config.sweep.is_some() {
+        out.note("note: one run alone; `driftlab sweep` runs what [sweep] asks for");
+    }
     let default = || PathBuf::from("recordings").join(&loaded.config.name);
     let dir = args.out.clone().unwrap_or_else(default);
     RunFolder::check(&dir, args.force)?;

@@ -69,13 +69,17 @@ impl Chart {
         self.series.iter().all(|one| one.line.is_empty() && one.bars.is_empty())
     }
 
+    fn only_lines(&self) -> bool {
+        self.series.iter().all(|one| one.bars.is_empty())
+    }
+
     fn x_range(&self) -> (f64, f64) {
         if !self.places.is_empty() {
             return (-0.5, self.places.len() as f64 - 0.5);
         }
         let bars = self.series.iter().flat_map(|one| one.bars.iter().map(|bar| bar.x));
         let lines = self.series.iter().flat_map(|one| one.line.iter().map(|point| point.0));
-        let only_lines = self.series.iter().all(|one| one.bars.is_empty());
+        let only_lines = self.only_lines();
         let all = || bars.clone().chain(lines.clone());
         let (low, high) = (all().fold(f64::INFINITY, f64::min), all().fold(0.0, f64::max));
         if !low.is_finite() {
@@ -89,7 +93,9 @@ impl Chart {
         let bars = self.series.iter().flat_map(|one| one.bars.iter().map(|bar| bar.high));
         let lines = self.series.iter().flat_map(|one| one.line.iter().map(|point| point.1));
         let highest = bars.chain(lines).fold(0.0, f64::max);
-        self.top.unwrap_or(if highest > 0.0 { 1.08 * highest } else { 1.0 })
+        // Above points there is room for the legend.
+        let room = if self.only_lines() { 1.08 } else { 1.3 };
+        self.top.unwrap_or(if highest > 0.0 { room * highest } else { 1.0 })
     }
 
     /// The text of the SVG file: the same for the same plot.
@@ -110,7 +116,7 @@ impl Chart {
         root.fill(&WHITE)?;
         let (left, right) = self.x_range();
         let mut context = ChartBuilder::on(&root)
-            .caption(&self.title, ("sans-serif", 14))
+            .caption(&self.title, ("sans-serif", 18))
             .margin(8)
             .margin_right(14)
             .x_label_area_size(38)
@@ -129,6 +135,8 @@ impl Chart {
             .y_desc(self.y_label.as_str())
             .x_labels(if self.places.is_empty() { 7 } else { 2 * self.places.len() + 1 })
             .y_labels(6)
+            .label_style(("sans-serif", 15))
+            .axis_desc_style(("sans-serif", 15))
             .x_label_formatter(labels)
             .light_line_style(WHITE.mix(0.0))
             .bold_line_style(BLACK.mix(0.12))
@@ -152,14 +160,20 @@ impl Chart {
             context.draw_series(thin.iter().map(|&at| Circle::new(at, 4, fill)))?;
             context
                 .draw_series(thin.iter().map(|&at| Circle::new(at, 4, colour.stroke_width(2))))?;
+            let width = if one.hollow { 1 } else { 3 };
             let line = LineSeries::new(one.line.iter().copied(), colour.stroke_width(2));
             context.draw_series(line)?.label(one.name.as_str()).legend(move |(x, y)| {
-                PathElement::new(vec![(x, y), (x + 16, y)], colour.stroke_width(3))
+                PathElement::new(vec![(x, y), (x + 16, y)], colour.stroke_width(width))
             });
         }
         context
             .configure_series_labels()
-            .position(SeriesLabelPosition::LowerRight)
+            .position(match (self.only_lines(), self.top) {
+                (true, _) => SeriesLabelPosition::LowerRight,
+                (false, Some(_)) => SeriesLabelPosition::MiddleLeft,
+                (false, None) => SeriesLabelPosition::UpperLeft,
+            })
+            .label_font(("sans-serif", 14))
             .background_style(WHITE.mix(0.8))
             .border_style(BLACK.mix(0.2))
             .draw()?;

@@ -22,7 +22,9 @@ impl Experiment {
     /// # Errors
     /// [`ConfigError`] with the line of the config.
     pub fn prepare(loaded: &Loaded) -> Result<Self, ConfigError> {
-        let config = loaded.anchored();
+        let mut config = loaded.anchored();
+        // One run has nothing to sweep.
+        config.sweep = None;
         let place = build_place(loaded)?;
         let coverage = Coverage::new(&place.world, (&config.metrics).into()).map_err(|error| {
             let key = if config.metrics.grid.is_some() { "metrics.grid" } else { "metrics.cell_m" };
