@@ -10,7 +10,7 @@
 use probe::Probe;
 
 use super::problem::Problem;
-use super::state::{LARGEST_DAMPING, Promise, State, gain_ratio};
+use super::state::{Promise, SINGULAR, State, gain_ratio};
 use super::{OptimizerEvent, Options, Termination};
 use crate::factors::Manifold;
 
@@ -33,8 +33,7 @@ pub(super) fn run<P: Manifold<D>, const D: usize>(
             Some(full) => full,
             None => {
                 let Some(full) = state.promise(problem, 0.0) else {
-                    let threshold = LARGEST_DAMPING;
-                    return Termination::Singular { damping: LARGEST_DAMPING, threshold };
+                    return SINGULAR;
                 };
                 newton.clone_from(&state.step);
                 cauchy_point(problem, &state.poses, &mut cauchy);
@@ -65,13 +64,7 @@ pub(super) fn run<P: Manifold<D>, const D: usize>(
         let relative_decrease = full.decrease / before;
         let last = full.step_max <= options.step || relative_decrease <= options.relative_decrease;
         if accepted {
-            std::mem::swap(&mut state.poses, &mut state.trial);
-            state.cost = cost;
-            if last {
-                problem.evaluate(&state.poses);
-            } else {
-                problem.linearize(&state.poses);
-            }
+            state.accept(problem, cost, last);
         }
         fresh = if accepted { None } else { Some(full) };
         let reached = if whole { newton_length } else { radius };
@@ -82,12 +75,7 @@ pub(super) fn run<P: Manifold<D>, const D: usize>(
         }
         state.record(problem, promise, cost, accepted, before, probe);
         if last || before == 0.0 {
-            return if full.step_max <= options.step {
-                Termination::StepConverged { step: full.step_max, threshold: options.step }
-            } else {
-                let threshold = options.relative_decrease;
-                Termination::CostConverged { relative_decrease, threshold }
-            };
+            return full.converged(relative_decrease, options);
         }
         if radius < SMALLEST_SHARE * newton_length {
             return Termination::Stalled { damping: radius, threshold: SMALLEST_SHARE };

@@ -17,7 +17,7 @@
 use probe::Probe;
 
 use super::problem::Problem;
-use super::state::{LARGEST_DAMPING, Promise, State};
+use super::state::{Promise, SINGULAR, State};
 use super::{OptimizerEvent, Options, Termination, levenberg_marquardt};
 use crate::factors::Manifold;
 
@@ -66,7 +66,7 @@ pub(super) fn run<P: Manifold<D>, const D: usize>(
         }
         promise = promise.or_else(|| state.promise(problem, 0.0));
         let Some(mut promise) = promise else {
-            return Termination::Singular { damping: LARGEST_DAMPING, threshold: LARGEST_DAMPING };
+            return SINGULAR;
         };
         // A rate says something only where the model holds.
         let before_that = if like(last_gain) { last_decrease } else { promise.decrease };
@@ -132,18 +132,12 @@ fn ending(
     cost: f64,
     options: &Options,
 ) -> Option<Termination> {
-    if promise.step_max <= options.step || cost == 0.0 {
-        return Some(Termination::StepConverged {
-            step: promise.step_max,
-            threshold: options.step,
-        });
-    }
     let rate = (promise.decrease / last_decrease).max(BEST_RATE);
     let rest = if rate < 0.5 { promise.decrease * rate / (1.0 - rate) } else { promise.decrease };
     let relative_decrease = rest / cost;
-    let threshold = options.relative_decrease;
-    (relative_decrease <= threshold)
-        .then_some(Termination::CostConverged { relative_decrease, threshold })
+    // At cost 0 there is no gradient, and no step.
+    let ended = promise.step_max <= options.step || relative_decrease <= options.relative_decrease;
+    ended.then(|| promise.converged(relative_decrease, options))
 }
 
 /// Tries a longer step along the current one, and keeps it where its cost is lower.

@@ -7,7 +7,7 @@
 use probe::Probe;
 
 use super::problem::Problem;
-use super::state::{LARGEST_DAMPING, State, gain_ratio};
+use super::state::{LARGEST_DAMPING, SINGULAR, State, gain_ratio};
 use super::{OptimizerEvent, Options, Termination};
 use crate::factors::Manifold;
 
@@ -26,7 +26,7 @@ pub(super) fn run<P: Manifold<D>, const D: usize>(
     let (mut damping, mut growth) = (FIRST, 2.0);
     while state.iterations.len() < options.max_iterations {
         let Some(promise) = state.promise(problem, damping) else {
-            return Termination::Singular { damping: LARGEST_DAMPING, threshold: LARGEST_DAMPING };
+            return SINGULAR;
         };
         damping = promise.damping;
         problem.moved(&state.poses, &state.step, &mut state.trial);
@@ -39,13 +39,7 @@ pub(super) fn run<P: Manifold<D>, const D: usize>(
         let last = (damping <= 1e-3 || !accepted) && relative_decrease <= options.relative_decrease
             || promise.step_max <= options.step;
         if accepted {
-            std::mem::swap(&mut state.poses, &mut state.trial);
-            state.cost = cost;
-            if last {
-                problem.evaluate(&state.poses);
-            } else {
-                problem.linearize(&state.poses);
-            }
+            state.accept(problem, cost, last);
             damping = (damping * (1.0 - (2.0 * gain - 1.0).powi(3)).max(0.1)).max(LEAST);
             growth = 2.0;
         } else {
@@ -54,12 +48,7 @@ pub(super) fn run<P: Manifold<D>, const D: usize>(
         }
         state.record(problem, promise, cost, accepted, before, probe);
         if last || before == 0.0 {
-            return if promise.step_max <= options.step {
-                Termination::StepConverged { step: promise.step_max, threshold: options.step }
-            } else {
-                let threshold = options.relative_decrease;
-                Termination::CostConverged { relative_decrease, threshold }
-            };
+            return promise.converged(relative_decrease, options);
         }
         if damping > LARGEST_DAMPING {
             return Termination::Stalled { damping, threshold: LARGEST_DAMPING };

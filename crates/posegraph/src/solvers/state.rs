@@ -3,7 +3,7 @@
 use probe::Probe;
 
 use super::problem::Problem;
-use super::{Iteration, OptimizerEvent};
+use super::{Iteration, OptimizerEvent, Options, Termination};
 use crate::factors::Manifold;
 
 /// The first damping that is tried where the matrix is not positive definite.
@@ -107,6 +107,24 @@ impl<P> State<P> {
         }
     }
 
+    /// Takes the trial poses, of this cost; linearises there, unless this was the last step.
+    pub(super) fn accept<const D: usize>(
+        &mut self,
+        problem: &mut Problem<'_, P, D>,
+        cost: f64,
+        last: bool,
+    ) where
+        P: Manifold<D>,
+    {
+        std::mem::swap(&mut self.poses, &mut self.trial);
+        self.cost = cost;
+        if last {
+            problem.evaluate(&self.poses);
+        } else {
+            problem.linearize(&self.poses);
+        }
+    }
+
     /// Writes down an iteration.
     pub(super) fn record<const D: usize>(
         &mut self,
@@ -141,6 +159,21 @@ impl<P> State<P> {
         }
     }
 }
+
+impl Promise {
+    /// Which of the two thresholds ended an optimisation that has converged with this step.
+    pub(super) fn converged(&self, relative_decrease: f64, options: &Options) -> Termination {
+        if self.step_max <= options.step {
+            Termination::StepConverged { step: self.step_max, threshold: options.step }
+        } else {
+            Termination::CostConverged { relative_decrease, threshold: options.relative_decrease }
+        }
+    }
+}
+
+/// The end where no damping makes the matrix positive definite.
+pub(super) const SINGULAR: Termination =
+    Termination::Singular { damping: LARGEST_DAMPING, threshold: LARGEST_DAMPING };
 
 /// How much of a promised decrease came true; 1 where nothing was promised.
 pub(super) fn gain_ratio(decrease: f64, promised: f64) -> f64 {
