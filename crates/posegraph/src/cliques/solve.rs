@@ -6,9 +6,11 @@ impl<const D: usize> CliqueTree<D> {
     /// Solves from the roots down; returns the variables whose steps changed.
     ///
     /// A clique that was not made in the last change is left alone, with all beneath it, where no
-    /// step of its separator changed. A change of at most `threshold` in every entry of a clique is
-    /// dropped, so that what is dropped does not add up (wildfire, Kaess et al. 2012).
-    pub(crate) fn solve(&mut self, threshold: f64, changed: &mut Vec<usize>) {
+    /// step of its separator changed. The steps of a clique are left as they are where changing them
+    /// lowers the cost by at most `least`: by `‖Lᵀ Δ‖²` with its diagonal block `L` of the factor. They
+    /// are held against where they should be every time, so that what is dropped does not add up
+    /// (wildfire, Kaess et al. 2012, by cost instead of by length).
+    pub(crate) fn solve(&mut self, least: f64, changed: &mut Vec<usize>) {
         changed.clear();
         let mut work = std::mem::take(&mut self.work);
         for &slot in &self.made {
@@ -36,13 +38,12 @@ impl<const D: usize> CliqueTree<D> {
                 let known = dot(&numbers[column + 1..], &x[column + 1..]);
                 x[column] = (x[column] - known) / numbers[column];
             }
-            let mut largest = 0.0f64;
-            for (variable, x) in clique.frontals.iter().zip(x.chunks_exact(D)) {
-                for (old, new) in self.steps[*variable].iter().zip(x) {
-                    largest = largest.max((old - new).abs());
-                }
+            let old = &mut work.change;
+            old.clear();
+            for variable in &clique.frontals {
+                old.extend_from_slice(self.steps[*variable].as_slice());
             }
-            if largest > threshold {
+            if gain(old, &x[..width], &clique.factor, rows) > least {
                 for (variable, x) in clique.frontals.iter().zip(x.chunks_exact(D)) {
                     self.steps[*variable].copy_from_slice(x);
                     work.moved[*variable] = true;
@@ -58,6 +59,19 @@ impl<const D: usize> CliqueTree<D> {
         self.made.clear();
         self.work = work;
     }
+}
+
+/// By how much the cost of a clique's columns falls from old steps to the solution; leaves the change
+/// in `old`.
+fn gain(old: &mut [f64], solution: &[f64], factor: &[f64], rows: usize) -> f64 {
+    for (old, new) in old.iter_mut().zip(solution) {
+        *old -= new;
+    }
+    let width = old.len();
+    let share = |column: usize| {
+        dot(&factor[column * rows + column..column * rows + width], &old[column..]).powi(2)
+    };
+    (0..width).map(share).sum()
 }
 
 /// The inner product, summed in eight strands.

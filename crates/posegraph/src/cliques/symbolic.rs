@@ -38,6 +38,7 @@ pub(super) struct Workspace {
     pub moved: Vec<bool>,
     pub stack: Vec<usize>,
     pub numbers: Vec<f64>,
+    pub change: Vec<f64>,
 }
 
 impl Workspace {

@@ -10,12 +10,14 @@
 //! 2. **Linearise** the new factors. Each vertex is linearised at a pose of its own and has a step `δ`
 //!    from there; the estimate is `X exp(δ)`. Vertices whose `δ` has become longer than
 //!    [`relinearise`](IncrementalOptions::relinearise) take their step, and their factors are
-//!    worked out anew (fluid relinearisation).
+//!    worked out anew (fluid relinearisation); so do those of a factor whose error is farther from
+//!    its linear model than [`bend`](IncrementalOptions::bend) allows. The first catches a map that
+//!    turns, the second stiff factors, of which a length says nothing.
 //! 3. **Detach** from the tree the cliques of all factors that are new or changed, and all above
 //!    them. What hangs beneath stays: its effect on the rest is kept as one dense update per clique.
 //! 4. **Order** the vertices that came loose by approximate minimum degree, the new one last, since the
 //!    next step will touch it; **eliminate** them as dense fronts.
-//! 5. **Solve** from the roots down, no further than steps change by more than
+//! 5. **Solve** from the roots down, no further than changes lower the cost by more than
 //!    [`propagate`](IncrementalOptions::propagate) (wildfire). One Gauss-Newton iteration per step is
 //!    the default; later steps go on where it ended.
 //! 6. [`finish`](Incremental::finish) runs the batch optimiser from there, which is mostly one or two
@@ -24,8 +26,9 @@
 //! This is iSAM2 (Kaess, Johannsson, Roberts, Ila, Leonard and Dellaert 2012) with these differences:
 //! Cholesky on the normal equations in blocks instead of QR; columns joined into larger cliques where
 //! that stores few zeros; the new vertex kept out of the ordering and eliminated last, in place of
-//! constrained COLAMD; vertices held instead of a prior; parts that join; factors that can be taken
-//! back ([`withdraw`](Incremental::withdraw)), which detaches the same way.
+//! constrained COLAMD; thresholds in shares of `χ²` beside those in metres and radians; vertices held
+//! instead of a prior; parts that join; factors that can be taken back
+//! ([`withdraw`](Incremental::withdraw)), which detaches the same way.
 //!
 //! **Why not** a fixed ordering with a warm start: a batch iteration on M3500 costs about 4 ms on its
 //! own, and a fixed ordering fills up with every loop closure. **What it costs**: between `finish`es
@@ -62,6 +65,7 @@
 
 mod covariance;
 mod islands;
+mod linearity;
 mod options;
 mod smoother;
 mod withdraw;

@@ -9,7 +9,11 @@ pub struct IncrementalOptions {
     pub error: ErrorKind,
     /// A pose is linearised anew where an entry of its step is longer than this, metres or radians.
     pub relinearise: f64,
-    /// Changes of steps of at most this are not passed on, metres or radians.
+    /// The poses of a factor are linearised anew where what its linear model leaves out is more `χ²`
+    /// than this share of the mean over all factors: stiff factors bend long before steps are long.
+    pub bend: f64,
+    /// Changes of steps that lower the cost by no more than this share of the mean `χ²` of a factor
+    /// are not passed on.
     pub propagate: f64,
     /// Gauss-Newton iterations per added vertex, at most; at least one is done.
     pub iterations: usize,
@@ -17,7 +21,13 @@ pub struct IncrementalOptions {
 
 impl Default for IncrementalOptions {
     fn default() -> Self {
-        Self { error: ErrorKind::G2o, relinearise: 0.01, propagate: 1e-5, iterations: 1 }
+        Self {
+            error: ErrorKind::G2o,
+            relinearise: 0.01,
+            bend: 1e-4,
+            propagate: 1e-7,
+            iterations: 1,
+        }
     }
 }
 

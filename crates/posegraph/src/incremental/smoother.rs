@@ -4,7 +4,7 @@ use super::islands::Islands;
 use super::{IncrementalOptions, Update};
 use crate::PoseGraphError;
 use crate::cliques::{CliqueTree, HELD, Term};
-use crate::factors::{Factor, FactorGraph, Manifold, admissible_information};
+use crate::factors::{Factor, FactorGraph, Manifold, NormalBlocks, admissible_information};
 use crate::solvers::{Options, Report, optimize};
 
 /// A pose graph that grows, its poses optimised after every step.
@@ -24,8 +24,13 @@ pub struct Incremental<P, const D: usize> {
     /// Vertices of terms that changed since the last elimination.
     pub(super) touched: Vec<usize>,
     /// Vertices whose steps changed in the last solve.
-    moved: Vec<usize>,
-    far: Vec<usize>,
+    pub(super) moved: Vec<usize>,
+    bent: Vec<usize>,
+    /// `χ²` of each factor where it was linearised last, and the sum.
+    pub(super) factor_chi2: Vec<f64>,
+    pub(super) linearised_chi2: f64,
+    /// Marks of factors, all off between uses.
+    pub(super) looked_at: Vec<bool>,
 }
 
 impl<P: Manifold<D>, const D: usize> Incremental<P, D> {
@@ -42,7 +47,10 @@ impl<P: Manifold<D>, const D: usize> Incremental<P, D> {
             terms_of: Vec::new(),
             touched: Vec::new(),
             moved: Vec::new(),
-            far: Vec::new(),
+            bent: Vec::new(),
+            factor_chi2: Vec::new(),
+            linearised_chi2: 0.0,
+            looked_at: Vec::new(),
         }
     }
 
@@ -112,7 +120,10 @@ impl<P: Manifold<D>, const D: usize> Incremental<P, D> {
         let index = self.factors.len();
         self.factors.push(factor);
         self.withdrawn.push(false);
-        let blocks = self.linearisation(&factor);
+        self.factor_chi2.push(0.0);
+        self.looked_at.push(false);
+        let (blocks, chi2) = self.linearisation(&factor);
+        self.learn_chi2(index, chi2);
         self.terms.push(Term { from: self.variable(from), to: self.variable(to), blocks });
         self.terms_of[from].push(index);
         self.terms_of[to].push(index);
@@ -159,35 +170,35 @@ impl<P: Manifold<D>, const D: usize> Incremental<P, D> {
         if self.islands.is_held(vertex) { HELD } else { vertex }
     }
 
-    fn linearisation(&self, factor: &Factor<P, D>) -> crate::factors::NormalBlocks<D> {
+    /// What a factor adds, and its `χ²`, where its poses were linearised last.
+    fn linearisation(&self, factor: &Factor<P, D>) -> (NormalBlocks<D>, f64) {
         let (from, to) = (&self.linearised[factor.from], &self.linearised[factor.to]);
         let linear = P::linearize(self.options.error, &factor.from_from_to, from, to);
-        P::normal_blocks(&linear, &factor.information)
+        let chi2 = linear.error.dot(&(factor.information * linear.error));
+        (P::normal_blocks(&linear, &factor.information), chi2)
     }
 
-    /// Gauss-Newton iterations from what changed until no step is long.
+    /// Gauss-Newton iterations from what changed until linear models hold.
     pub(super) fn descend(&mut self, recent: &[usize]) -> Update {
         let mut update = Update::default();
-        let limit = self.options.relinearise;
-        let mut far = std::mem::take(&mut self.far);
+        let mut bent = std::mem::take(&mut self.bent);
         loop {
-            far.clear();
-            let tree = &self.tree;
-            far.extend(self.moved.iter().copied().filter(|&v| tree.step(v).amax() > limit));
-            if update.iterations > 0 && far.is_empty() {
+            self.gather_bent(&mut bent);
+            if update.iterations > 0 && bent.is_empty() {
                 break;
             }
-            self.relinearise(&far);
-            update.relinearised += far.len();
+            self.relinearise(&bent);
+            update.relinearised += bent.len();
             update.refactored += self.eliminate(recent);
-            self.tree.solve(self.options.propagate, &mut self.moved);
+            let least = self.options.propagate * self.mean_chi2();
+            self.tree.solve(least, &mut self.moved);
             update.solved += self.moved.len();
             update.iterations += 1;
             if update.iterations >= self.options.iterations {
                 break;
             }
         }
-        self.far = far;
+        self.bent = bent;
         update
     }
 
@@ -207,7 +218,9 @@ impl<P: Manifold<D>, const D: usize> Incremental<P, D> {
     /// Works out a factor anew.
     pub(super) fn refresh(&mut self, index: usize) {
         let factor = self.factors[index];
-        self.terms[index].blocks = self.linearisation(&factor);
+        let (blocks, chi2) = self.linearisation(&factor);
+        self.terms[index].blocks = blocks;
+        self.learn_chi2(index, chi2);
         self.touched.extend([factor.from, factor.to]);
     }
 
@@ -274,12 +287,13 @@ impl<P: Manifold<D>, const D: usize> Incremental<P, D> {
         }
         self.touched.extend_from_slice(&free);
         for index in 0..self.factors.len() {
-            let factor = self.factors[index];
-            self.terms[index].blocks = self.linearisation(&factor);
+            if !self.withdrawn[index] {
+                self.refresh(index);
+            }
         }
         let last = self.len().saturating_sub(1);
         self.eliminate(&[last]);
-        self.tree.solve(self.options.propagate, &mut self.moved);
+        self.tree.solve(self.options.propagate * self.mean_chi2(), &mut self.moved);
         solution.report
     }
 

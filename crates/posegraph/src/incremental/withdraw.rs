@@ -16,6 +16,7 @@ impl<P: Manifold<D>, const D: usize> Incremental<P, D> {
             return Err(PoseGraphError::UnknownFactor { factor, len });
         }
         self.withdrawn[factor] = true;
+        self.learn_chi2(factor, 0.0);
         let (from, to) = (self.factors[factor].from, self.factors[factor].to);
         for vertex in [from, to] {
             self.terms_of[vertex].retain(|&index| index != factor);

@@ -24,7 +24,7 @@ pub fn by_step<P: Copy, const D: usize>(graph: &FactorGraph<P, D>) -> Vec<Vec<Fa
 
 /// Options with which every step is solved to the end.
 pub fn thorough(error: ErrorKind) -> IncrementalOptions {
-    IncrementalOptions { error, relinearise: 1e-10, propagate: 0.0, iterations: 30 }
+    IncrementalOptions { error, relinearise: 1e-10, bend: 0.0, propagate: 0.0, iterations: 30 }
 }
 
 fn feed<P: Drawn<D>, const D: usize>(
@@ -140,4 +140,20 @@ fn a_town_is_followed_closely_and_finished_exactly() {
     let report = growing.finish(&Options::default());
     assert!(report.termination.is_converged());
     assert!(((chi2(&graph, &growing.poses(), ErrorKind::G2o) - batch) / batch).abs() < 1e-7);
+}
+
+/// Real graphs hold matches along walls: next to nothing is known along them, all but everything across.
+#[test]
+fn stiff_factors_are_followed_as_closely() {
+    let mut graph = posegraph::synthetic::manhattan(300, 5).graph;
+    for factor in graph.factors.iter_mut().step_by(40) {
+        factor.information[(0, 0)] *= 1e9;
+    }
+    let mut growing = Incremental::new(IncrementalOptions::default());
+    for step in by_step(&graph) {
+        growing.add(None, &step).unwrap();
+    }
+    let batch = optimize(&graph, &growing.poses(), &exact(ErrorKind::G2o)).report.chi2;
+    let gap = (growing.chi2() - batch) / batch;
+    assert!(gap < 1e-4, "{gap:e}");
 }
