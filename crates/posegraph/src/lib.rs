@@ -21,7 +21,7 @@ pub use factors::{
     Manifold,
 };
 pub use incremental::{Incremental, IncrementalOptions, Update};
-pub use initial::{Start, default_start, default_start_with};
+pub use initial::{Start, default_start, default_start_by, default_start_with};
 pub use marginals::{JointCovariance, Marginals};
 pub use placement::{
     Edge, EdgeKind, Link, Placed, Placement, PoseGraph, Scope, ScopeScratch, Skeleton, Via,

@@ -1,10 +1,12 @@
 //! The default start reaches what a start at the truth reaches.
 
 use pose::Se2;
+use pose::nalgebra::Matrix3;
 use posegraph::initial::default::Origin;
+use posegraph::initial::{spanning_tree, surest_tree};
 use posegraph::synthetic::{Noise, Sphere, Synthetic, Torus, Walk, sphere, torus, walk};
 use posegraph::{
-    FactorGraph, Loss, Options, Rigid, SynchronizeOptions, certify, default_start, optimize,
+    Factor, FactorGraph, Loss, Options, Rigid, SynchronizeOptions, certify, default_start, optimize,
 };
 
 use super::graphs::{noisy2, ring2};
@@ -51,6 +53,32 @@ fn long_loops_with_few_closures_are_solved() {
         assert!((3..120).contains(&closures), "{closures} closures");
         reaches(&made);
     }
+}
+
+#[test]
+fn the_surest_tree_goes_round_by_what_is_measured_well() {
+    let information = |rotation| Matrix3::from_diagonal(&[1.0, 1.0, rotation].into());
+    let factor = |from, to, x, rotation| Factor {
+        from,
+        to,
+        from_from_to: Se2::new(x, 0.0, 0.0),
+        information: information(rotation),
+    };
+    let graph = FactorGraph {
+        ids: vec![4, 5, 6, 9],
+        initial: vec![None; 4],
+        fixed: Vec::new(),
+        factors: vec![
+            factor(0, 2, 7.0, 1.0),
+            factor(2, 1, -1.0, 100.0),
+            factor(0, 1, 1.0, 100.0),
+            // Of this rotation nothing is known, but no other way leads there.
+            factor(2, 3, 1.0, 0.0),
+        ],
+    };
+    let x = |poses: Vec<Se2>| poses.iter().map(|pose| pose.translation.x).collect::<Vec<_>>();
+    assert_eq!(x(surest_tree(&graph)), [0.0, 1.0, 2.0, 3.0]);
+    assert_eq!(x(spanning_tree(&graph)), [0.0, 1.0, 7.0, 8.0]);
 }
 
 #[test]

@@ -5,8 +5,10 @@ use probe::{Off, Probe};
 use super::judge::{Judgement, judge};
 use crate::certificate::{Verdict, certify};
 use crate::factors::FactorGraph;
-use crate::initial::{chordal, odometry, spanning_tree};
-use crate::solvers::{Loss, OptimizerEvent, Options, Solution, Solver, optimize, optimize_with};
+use crate::initial::{chordal, odometry, spanning_tree, surest_tree};
+use crate::solvers::{
+    Loss, LossOn, OptimizerEvent, Options, Solution, Solver, optimize, optimize_with,
+};
 use crate::synchronize::{Rigid, SynchronizeOptions};
 
 /// Where start values came from.
@@ -20,18 +22,27 @@ pub enum Origin {
     Odometry,
     /// The shortest paths from the first vertex.
     SpanningTree,
+    /// The paths from the first vertex on which rotations are measured best.
+    SurestTree,
+    /// The surest tree, after factors were allowed to disagree for a while.
+    LoosenedTree,
+    /// The chain of odometry, after closures were allowed to disagree for a while.
+    LoosenedOdometry,
     /// The lowest of the others, after damped steps.
     Damped,
 }
 
 impl Origin {
-    /// A name for reports: `chordal`, `synchronized`, `odometry`, `spanning_tree`, `damped`.
+    /// A name for reports: `chordal`, `synchronized`, `spanning_tree` and so on.
     pub fn name(self) -> &'static str {
         match self {
             Self::Chordal => "chordal",
             Self::Synchronized => "synchronized",
             Self::Odometry => "odometry",
             Self::SpanningTree => "spanning_tree",
+            Self::SurestTree => "surest_tree",
+            Self::LoosenedTree => "loosened_tree",
+            Self::LoosenedOdometry => "loosened_odometry",
             Self::Damped => "damped",
         }
     }
@@ -84,6 +95,31 @@ pub fn default_start_with<P: Rigid<D>, const D: usize>(
     options: &Options,
     probe: &mut impl for<'a> Probe<OptimizerEvent<'a, P>>,
 ) -> Start<P> {
+    let mut first = true;
+    let mut start = default_start_by(graph, options, |poses, options| {
+        if std::mem::take(&mut first) {
+            optimize_with(graph, poses, options, probe)
+        } else {
+            optimize(graph, poses, options)
+        }
+    });
+    if start.trials[0].origin != start.origin && probe.on() {
+        // Once more, so that the probe sees the way to what is returned, and that last.
+        let options = Options { solver: Solver::GaussNewton, ..*options };
+        start.solution = optimize_with(graph, &start.poses, &options, probe);
+    }
+    start
+}
+
+/// [`default_start`], every start tried by the caller, who may watch or time what is done.
+///
+/// `run` moves poses to a minimum with these options, as [`optimize`] does; it is called once for
+/// each of [`Start::trials`], in their order.
+pub fn default_start_by<P: Rigid<D>, const D: usize>(
+    graph: &FactorGraph<P, D>,
+    options: &Options,
+    mut run: impl FnMut(&[P], &Options) -> Solution<P>,
+) -> Start<P> {
     let trusting = options.loss == Loss::None;
     let options = &Options { solver: Solver::GaussNewton, ..*options };
     let (origin, first) = if trusting {
@@ -91,7 +127,7 @@ pub fn default_start_with<P: Rigid<D>, const D: usize>(
     } else {
         (Origin::Odometry, odometry(graph))
     };
-    let solution = optimize_with(graph, &first, options, probe);
+    let solution = run(&first, options);
     let judgement = judge(graph, &solution);
     let mut start = Start {
         poses: first,
@@ -105,6 +141,16 @@ pub fn default_start_with<P: Rigid<D>, const D: usize>(
         return start;
     }
     let mut better: Option<Better<P>> = None;
+    // Optimises from poses, and keeps the solution where it is the lowest so far.
+    let mut try_from =
+        |origin, poses: Vec<P>, start: &mut Start<P>, better: &mut Option<Better<P>>| {
+            let solution = run(&poses, options);
+            start.trials.push(trial(origin, &solution));
+            let lowest = better.as_ref().map_or(&start.solution, |better| &better.solution);
+            if improves(&solution, lowest) {
+                *better = Some(Better { origin, poses, solution });
+            }
+        };
     // Which valley it is needs no more digits, and a graph without a tight relaxation no more ranks.
     let effort = SynchronizeOptions {
         max_rank: P::DIM + 1,
@@ -120,29 +166,59 @@ pub fn default_start_with<P: Rigid<D>, const D: usize>(
         return start;
     }
     if certificate.verdict != Verdict::NotApplicable {
-        try_from(graph, Origin::Synchronized, certificate.poses, options, &mut start, &mut better);
+        try_from(Origin::Synchronized, certificate.poses, &mut start, &mut better);
     }
     let lowest = better.as_ref().map_or(&start.solution, |better| &better.solution);
     // In the plane the other starts cost next to nothing; in space they take long to lead astray.
     if !certified || (P::DIM == 2 && judge(graph, lowest).doubt.is_some()) {
-        try_from(graph, Origin::Odometry, odometry(graph), options, &mut start, &mut better);
-        let tree = spanning_tree(graph);
-        try_from(graph, Origin::SpanningTree, tree, options, &mut start, &mut better);
+        try_from(Origin::Odometry, odometry(graph), &mut start, &mut better);
+        try_from(Origin::SpanningTree, spanning_tree(graph), &mut start, &mut better);
+        let tree = surest_tree(graph);
+        if P::DIM == 2 {
+            let lowest = better.as_ref().map_or(&start.solution, |better| &better.solution);
+            // What noise leaves a factor, by the lowest solution so far.
+            let degrees = start.judgement.degrees_of_freedom.max(1) as f64;
+            let width = (lowest.report.chi2 / degrees).sqrt();
+            let loosened = |poses: &[P], loss_on| loosened(graph, poses, width, loss_on, options);
+            let from_tree = loosened(&tree, LossOn::All);
+            let from_odometry = loosened(&odometry(graph), LossOn::Closures);
+            try_from(Origin::LoosenedTree, from_tree, &mut start, &mut better);
+            try_from(Origin::LoosenedOdometry, from_odometry, &mut start, &mut better);
+        }
+        try_from(Origin::SurestTree, tree, &mut start, &mut better);
     }
     let lowest = better.as_ref().map_or(&start.solution, |better| &better.solution);
     if !lowest.report.termination.is_converged() {
         // Full steps circle round it; damped ones go down.
         let damped = Options { solver: Solver::LevenbergMarquardt, ..*options };
         let poses = optimize(graph, &lowest.poses, &damped).poses;
-        try_from(graph, Origin::Damped, poses, options, &mut start, &mut better);
+        try_from(Origin::Damped, poses, &mut start, &mut better);
     }
-    if let Some(Better { origin, poses, .. }) = better {
-        // Once more, so that the probe sees the way to what is returned, and that last.
-        start.solution = optimize_with(graph, &poses, options, probe);
-        start.poses = poses;
-        start.origin = origin;
+    if let Some(Better { origin, poses, solution }) = better {
+        Start { poses, origin, solution, ..start }
+    } else {
+        start
     }
-    start
+}
+
+/// Iterations in which factors may disagree: it decides about valleys, not about digits.
+const LOOSE_ITERATIONS: usize = 40;
+
+/// Poses after factors were allowed to disagree, by Cauchy's loss: closures that contradict a long way
+/// do not tear at it before it has come near.
+fn loosened<P: Rigid<D>, const D: usize>(
+    graph: &FactorGraph<P, D>,
+    poses: &[P],
+    width: f64,
+    loss_on: LossOn,
+    options: &Options,
+) -> Vec<P> {
+    if !(width.is_finite() && width > 0.0) {
+        return poses.to_vec();
+    }
+    let max_iterations = options.max_iterations.min(LOOSE_ITERATIONS);
+    let loose = Options { loss: Loss::Cauchy { width }, loss_on, max_iterations, ..*options };
+    optimize(graph, poses, &loose).poses
 }
 
 /// Poses whose rotations are nowhere farther apart lie in the same valley: a path from one to the
@@ -159,23 +235,6 @@ struct Better<P> {
     origin: Origin,
     poses: Vec<P>,
     solution: Solution<P>,
-}
-
-/// Optimises from `poses`, and keeps the solution where it is the lowest so far.
-fn try_from<P: Rigid<D>, const D: usize>(
-    graph: &FactorGraph<P, D>,
-    origin: Origin,
-    poses: Vec<P>,
-    options: &Options,
-    start: &mut Start<P>,
-    better: &mut Option<Better<P>>,
-) {
-    let solution = optimize(graph, &poses, options);
-    start.trials.push(trial(origin, &solution));
-    let lowest = better.as_ref().map_or(&start.solution, |better| &better.solution);
-    if improves(&solution, lowest) {
-        *better = Some(Better { origin, poses, solution });
-    }
 }
 
 fn trial<P>(origin: Origin, solution: &Solution<P>) -> Trial {

@@ -18,8 +18,9 @@
 //!    that ends in a **certified global optimum** and no rotation turned by more than an eighth of a
 //!    half-turn on the way, the solution lies in the valley of that optimum: done.
 //! 4. Else Gauss-Newton starts again from the poses that the staircase led to, and, unless those were
-//!    certified (in the plane: and believed), from odometry and the spanning tree too. The lowest `χ²`
-//!    wins.
+//!    certified (in the plane: and believed), from odometry, the spanning tree and the surest tree too;
+//!    in the plane also from what becomes of odometry and the surest tree when factors may disagree for
+//!    a while (Cauchy's loss, as wide as noise is by the lowest solution so far). The lowest `χ²` wins.
 //! 5. Where even the lowest did not converge, damped steps go on from it.
 //!
 //! `χ²` has no certificate: a start that passes is plausible, not proven. Nothing is looked up.
@@ -28,4 +29,4 @@ mod judge;
 mod ladder;
 
 pub use judge::{Doubt, Judgement};
-pub use ladder::{Origin, Start, Trial, default_start, default_start_with};
+pub use ladder::{Origin, Start, Trial, default_start, default_start_by, default_start_with};
