@@ -125,3 +125,25 @@ fn an_open_operand_is_bad_input() {
     );
     assert!(!folder.path().join("out.ply").exists());
 }
+
+#[test]
+fn a_mesh_is_reduced_within_the_error_and_recorded() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("a.off"), cube(0.0)).expect("it is written");
+    fs::write(folder.path().join("b.off"), cube(1.0)).expect("it is written");
+    json_of(
+        &["mesh", "boolean", "union", "a.off", "b.off", "--origins", "-o", "both.ply"],
+        folder.path(),
+    );
+    let before = json_of(&["mesh", "info", "both.ply"], folder.path());
+    let arguments =
+        ["mesh", "reduce", "both.ply", "--error", "0.001", "-o", "small.off", "--record", "it.rrd"];
+    let told = json_of(&arguments, folder.path());
+    assert_eq!(told["faces"], 12, "two cubes are one box: {before}");
+    assert_eq!(told["volume_m3"], 2.0);
+    assert!(told["max_m"].as_f64() <= Some(0.001) && told["closed"] == true);
+    let all = json_of(&["inspect", "it.rrd"], folder.path()).to_string();
+    for variant in ["Started", "Collapsed", "Finished"] {
+        assert!(all.contains(variant), "{variant} in {all}");
+    }
+}

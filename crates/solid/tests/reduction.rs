@@ -137,6 +137,26 @@ fn cleaning_takes_short_edges_and_nothing_else() {
     assert!(again.removed.is_empty() || again.removed.len() < cleaned.removed.len());
 }
 
+#[test]
+fn borders_of_open_meshes_stay() {
+    let mesh = squared_box(5);
+    let (vertices, faces, _, _) = mesh.into_parts();
+    let lid = |face: &[u32; 3]| face.iter().all(|&vertex| vertices[vertex as usize].z == 1.0);
+    let faces: Vec<[u32; 3]> = faces.into_iter().filter(|face| !lid(face)).collect();
+    let labels = vec![Label::Obstacle; faces.len()];
+    let open = Polyhedron::try_new(vertices, faces, labels).expect("indices are in range");
+    let reduced = reduce(&open, &Goal { error_m: 0.2, faces: 0 });
+    let rim = |mesh: &Polyhedron| {
+        let defects = check(mesh).defects;
+        let open = defects.iter().filter(|d| matches!(d, solid::Defect::OpenEdge { .. }));
+        assert_eq!(open.clone().count(), defects.len(), "nothing but the rim is wrong");
+        open.count()
+    };
+    assert_eq!(rim(&reduced.mesh), rim(&open));
+    assert_eq!(rim(&open), 20);
+    assert!(reduced.mesh.faces().len() < open.faces().len() / 2);
+}
+
 #[derive(Default)]
 struct Heard(Vec<&'static str>);
 

@@ -4,7 +4,9 @@
 //! line of text for each event. One file for each algorithm.
 
 mod boolean;
+mod reduce;
 mod stage;
 
 pub use boolean::BooleanRecording;
+pub use reduce::ReduceRecording;
 pub use stage::SolidOptions;

@@ -56,13 +56,16 @@ pub struct Reduced {
     pub refusals: Refusals,
 }
 
-/// Reduces a closed 2-manifold; see [`reduce_with`].
+/// Reduces a mesh; see [`reduce_with`].
 pub fn reduce(mesh: &Polyhedron, goal: &Goal) -> Reduced {
     reduce_with(mesh, goal, &mut Off)
 }
 
-/// Takes vertices out of a closed 2-manifold, the cheapest first, until the goal is reached or nothing
-/// can go, and tells `probe` about it.
+/// Takes vertices out of a mesh, the cheapest first, until the goal is reached or nothing can go, and
+/// tells `probe` about it.
+///
+/// Vertices on a border of the surface, on an edge of more than two faces, or at which the surface
+/// touches itself stay.
 ///
 /// What holds of the mesh holds of the result: closed, oriented, 2-manifold, the same Euler
 /// characteristic, the same regions of labels next to each other, and free of self-intersections where

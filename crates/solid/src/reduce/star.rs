@@ -48,10 +48,35 @@ impl Mesh {
         near
     }
 
+    /// Whether the faces at a vertex are one closed fan: it is neither on a border of the surface nor
+    /// where the surface touches itself.
+    pub(super) fn is_ringed(&self, vertex: u32) -> bool {
+        let faces = &self.at[vertex as usize];
+        let after = |face: u32| {
+            let corners = self.faces[face as usize];
+            let at = corners.iter().position(|&v| v == vertex).unwrap_or(0);
+            (corners[(at + 1) % 3], corners[(at + 2) % 3])
+        };
+        let Some(&first) = faces.first() else { return false };
+        let (start, mut end) = after(first);
+        for passed in 1..=faces.len() {
+            if end == start {
+                return passed == faces.len();
+            }
+            let mut next = faces.iter().map(|&face| after(face)).filter(|(from, _)| *from == end);
+            let (Some((_, to)), None) = (next.next(), next.next()) else { return false };
+            end = to;
+        }
+        false
+    }
+
     /// Whether drawing `from` into `to` leaves the surface the 2-manifold that it is: their common
     /// neighbours are the two corners opposite to their edge, and these two do not close a face with
     /// each of them.
     pub(super) fn link_holds(&self, from: u32, to: u32) -> bool {
+        if !self.is_ringed(from) {
+            return false;
+        }
         let at_edge: Vec<Face> = self.faces_at_edge(from, to).collect();
         let [first, second] = at_edge[..] else { return false };
         let third = |face: Face| face.into_iter().find(|&v| v != from && v != to);

@@ -37,6 +37,40 @@ pub(super) enum MeshCommand {
             driftlab mesh boolean intersection a.off b.off --json"
     )]
     Boolean(BooleanArgs),
+    /// Take faces out of a mesh, within an error
+    #[command(
+        long_about = "Take faces out of a mesh, within an error.\n\n\
+            Vertices are drawn into their neighbours, the cheapest first. Topology, labels and borders \
+            between labels stay, and no faces meet that did not meet before. The error is the distance \
+            of the mesh's vertices from the result; it is measured and told.",
+        after_help = "Examples:\n  \
+            driftlab mesh reduce map.ply --error 0.02 -o small.ply\n  \
+            driftlab mesh reduce scan.stl --error 0.5 --faces 2000 --record reduce.rrd"
+    )]
+    Reduce(ReduceArgs),
+}
+
+#[derive(Debug, Args)]
+pub(super) struct ReduceArgs {
+    /// The mesh: PLY, OBJ, STL, OFF, .node, .poly or .smesh
+    pub(super) file: PathBuf,
+    #[command(flatten)]
+    pub(super) input: MeshInput,
+    /// No vertex of the mesh may be farther than this from the result, metres
+    #[arg(long, value_name = "M", default_value_t = 0.01)]
+    pub(super) error: f64,
+    /// Stop at this many faces
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(super) faces: usize,
+    /// Where to write the result: .ply, .obj, .stl or .off
+    #[arg(short, long, value_name = "OUT")]
+    pub(super) output: Option<PathBuf>,
+    /// Record every step for the Rerun viewer
+    #[arg(long, value_name = "FILE.rrd")]
+    pub(super) record: Option<PathBuf>,
+    /// Replace files that are there already
+    #[arg(long)]
+    pub(super) force: bool,
 }
 
 /// What is made of two meshes.

@@ -1,4 +1,4 @@
-//! `driftlab mesh`: meshes, told about and combined.
+//! `driftlab mesh`: meshes, told about, combined and reduced.
 //!
 //! One file for each subcommand; `input.rs` and `output.rs` read and write for all of them, `told.rs`
 //! says what is said of every mesh.
@@ -8,6 +8,7 @@ mod boolean;
 mod info;
 mod input;
 mod output;
+mod reduce;
 mod told;
 
 pub(super) use args::MeshArgs;
@@ -19,6 +20,7 @@ use super::out::Out;
 pub(super) fn mesh(args: &MeshArgs, out: &Out) -> Result<(), Failure> {
     match &args.command {
         MeshCommand::Boolean(args) => boolean::boolean(args, out),
+        MeshCommand::Reduce(args) => reduce::reduce(args, out),
         MeshCommand::Info(args) => info::info(args, out),
     }
 }
