@@ -64,17 +64,20 @@ fn volume_of(mesh: &Manifold<f64>, about: &Point3) -> f64 {
 }
 
 /// Unites, intersects and subtracts every mesh of some folders with its copies.
-fn combine(parts: &[&str], at_least: usize) {
+///
+/// `bar` is how far the volumes may be off, as a share of the mesh's: from those of the second engine,
+/// and by what union and intersection together differ from both operands.
+fn combine(parts: &[&str], at_least: usize, bar: [f64; 2]) {
     let Some(folder) = folder() else { return };
     let meshes = meshes(&folder, parts);
     assert!(meshes.len() >= at_least, "{} closed meshes", meshes.len());
     let wrong: Vec<String> =
-        meshes.iter().flat_map(|(name, mesh)| with_copies(name, mesh)).collect();
+        meshes.iter().flat_map(|(name, mesh)| with_copies(name, mesh, bar)).collect();
     assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
 /// What is wrong with the booleans of a mesh and its copies.
-fn with_copies(name: &str, mesh: &Polyhedron) -> Vec<String> {
+fn with_copies(name: &str, mesh: &Polyhedron, bar: [f64; 2]) -> Vec<String> {
     let mut wrong = Vec::new();
     let (low, high) = mesh.bounds().expect("it has faces");
     let (size, middle) = (high - low, nalgebra::center(&low, &high));
@@ -111,20 +114,18 @@ fn with_copies(name: &str, mesh: &Polyhedron) -> Vec<String> {
                 sum += ours.volume_m3();
             }
             let Some((p, q)) = &others else { continue };
-            match compute_boolean(p, q, theirs) {
-                Ok(mesh) => {
-                    let off = (ours.volume_m3() - volume_of(&mesh, &middle)).abs() / scale;
-                    if off.is_nan() || off > 1e-9 {
-                        wrong.push(format!("{what}: off by {off:e}"));
-                    }
-                }
-                Err(why) => {
-                    let text = format!("SKIPPED: {what}: the second engine fails: {why}");
-                    writeln!(std::io::stderr(), "{text}").expect("stderr takes text");
-                }
+            let expected = match compute_boolean(p, q, theirs) {
+                Ok(mesh) => volume_of(&mesh, &middle),
+                // It has no empty meshes.
+                Err(why) if why.contains("empty") => 0.0,
+                Err(why) => panic!("{what}: the second engine fails: {why}"),
+            };
+            let off = (ours.volume_m3() - expected).abs() / scale;
+            if off.is_nan() || off > bar[0] {
+                wrong.push(format!("{what}: off by {off:e}"));
             }
         }
-        if sum.abs() > 1e-9 * scale {
+        if sum.abs() > bar[1] * scale {
             wrong.push(format!(
                 "{name}, {how}: union and intersection sum to {:e} more",
                 sum / scale
@@ -134,22 +135,26 @@ fn with_copies(name: &str, mesh: &Polyhedron) -> Vec<String> {
     wrong
 }
 
+/// The bar for meshes that do not intersect themselves.
+const SOUND: [f64; 2] = [1e-9, 1e-9];
+
 #[test]
 fn copies_of_regression_operands() {
-    combine(&["boolean_pairs"], 7);
+    combine(&["boolean_pairs"], 7, SOUND);
 }
 
 #[test]
 fn copies_of_small_meshes() {
-    combine(&["cgal", "clean", "thingi10k"], 12);
+    combine(&["cgal", "clean", "thingi10k"], 12, SOUND);
 }
 
 #[test]
 fn copies_of_meshes_with_coplanar_faces() {
-    combine(&["plc"], 2);
+    combine(&["plc"], 2, SOUND);
 }
 
 #[test]
 fn copies_of_nasty_meshes() {
-    combine(&["nasty"], 2);
+    // They intersect themselves: what is inside is a matter of taste there, and the engines differ.
+    combine(&["nasty"], 2, [1e-8, 1e-2]);
 }
