@@ -2,6 +2,7 @@
 
 use boolmesh::prelude::{Manifold, OpType, compute_boolean};
 use probe::Probe;
+use proptest::prelude::*;
 use solid::boolean::{BooleanEvent, Options, Provenance, obstacle_wins};
 use solid::synthetic::{Kind, degenerate_pairs, views};
 use solid::validity::check_topology;
@@ -274,4 +275,40 @@ fn jitter_depends_on_view_and_vertex_alone() {
     let farthest = view.vertices().iter().zip(moved.vertices()).map(|(p, q)| (p - q).amax());
     let farthest = farthest.fold(0.0, f64::max);
     assert!((0.5e-8..=1.01e-8).contains(&farthest), "{farthest}");
+}
+
+/// A box with corners on a coarse grid, so that most pairs share planes, edges or corners.
+fn grid_box() -> impl Strategy<Value = [[i32; 2]; 3]> {
+    prop::array::uniform3((0..4_i32, 1..3_i32).prop_map(|(low, size)| [low, low + size]))
+}
+
+fn as_mesh(sides: [[i32; 2]; 3], label: Label) -> Polyhedron {
+    let corner = |end: usize| Point3::from(sides.map(|side| 0.1 * f64::from(side[end])));
+    Polyhedron::cuboid(&corner(0), &corner(1), label)
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    #[test]
+    fn boxes_that_share_planes_have_the_volume_that_coordinates_tell(a in grid_box(), b in grid_box()) {
+        let cells = |sides: [[i32; 2]; 3]| sides.iter().map(|[low, high]| high - low).product::<i32>();
+        let common = [0, 1, 2].map(|i| {
+            let low = a[i][0].max(b[i][0]);
+            [low, low.max(a[i][1].min(b[i][1]))]
+        });
+        let (first, second, both) = (cells(a), cells(b), cells(common));
+        let (of_a, of_b) = (as_mesh(a, Label::Obstacle), as_mesh(b, Label::Frontier));
+        for (operation, cells) in [
+            (Operation::Union, first + second - both),
+            (Operation::Intersection, both),
+            (Operation::Difference, first - both),
+            (Operation::SymmetricDifference, first + second - 2 * both),
+        ] {
+            let mesh = boolean(&of_a, &of_b, operation, &Options::default()).expect("boxes");
+            prop_assert!(check_topology(&mesh).is_valid(), "{operation}");
+            let expected = f64::from(cells) * 1e-3;
+            prop_assert!((mesh.volume_m3() - expected).abs() < 1e-12, "{operation}: {}", mesh.volume_m3());
+        }
+    }
 }
