@@ -16,7 +16,7 @@ pub(crate) struct Quantity {
 }
 
 /// What is drawn over each axis.
-pub(crate) const QUANTITIES: [Quantity; 5] = [
+pub(crate) const QUANTITIES: [Quantity; 7] = [
     Quantity { label: "d_max, m", top: None, of: |group| group.mean("d_max_m").map(one_deviation) },
     Quantity { label: "d_exp, m", top: None, of: |group| group.mean("d_exp_m").map(one_deviation) },
     Quantity {
@@ -28,6 +28,16 @@ pub(crate) const QUANTITIES: [Quantity; 5] = [
         label: "wrongly complete",
         top: Some(1.05),
         of: |group| group.wrong().map(|share| interval(&share)),
+    },
+    Quantity {
+        label: "free space, IoU",
+        top: Some(1.05),
+        of: |group| group.mean("free_iou").map(one_deviation),
+    },
+    Quantity {
+        label: "poses off by (ATE), m",
+        top: None,
+        of: |group| group.mean("ate_m").map(one_deviation),
     },
     Quantity {
         label: "median step, µs",

@@ -102,27 +102,24 @@ pub(crate) fn costs(study: &Study) -> TextTable {
     })
 }
 
-/// Numbers that tell how right a map and its poses are, where any group has them; `None` where
-/// none has.
+/// Numbers that tell how right a map and its poses are, and what a column calls them.
+const ACCURACY: [(&str, &str); 4] = [
+    ("free_iou", "free space, IoU"),
+    ("wall_distance_m", "walls off by, m"),
+    ("ate_m", "poses off by (ATE), m"),
+    ("map_invalid", "map invalid, times"),
+];
+
+/// How right the maps and their poses were; `None` where no group tells.
 pub(crate) fn accuracy(study: &Study) -> Option<TextTable> {
-    let mut names: Vec<&str> = Vec::new();
-    let runs = study.groups.iter().flat_map(|group| &group.runs);
-    for name in runs.flat_map(|run| run.results.keys()) {
-        if name.starts_with("accuracy") && !names.contains(&name.as_str()) {
-            names.push(name);
-        }
-    }
-    names.retain(|name| study.groups.iter().any(|group| group.mean(name).is_some()));
-    let short: Vec<&str> = names
-        .iter()
-        .map(|name| name.trim_start_matches("accuracy").trim_start_matches(['.', '_']))
-        .collect();
+    let told =
+        |&(name, _): &(&str, &str)| study.groups.iter().any(|group| group.mean(name).is_some());
+    let (names, titles): (Vec<&str>, Vec<&str>) = ACCURACY.into_iter().filter(told).unzip();
     (!names.is_empty()).then(|| {
-        TextTable::of_groups(study, &short, |group| {
+        TextTable::of_groups(study, &titles, |group| {
             let told = |name: &&str| {
-                group
-                    .mean(name)
-                    .map_or_else(none, |mean| format!("{:.3} ± {:.3}", mean.mean, mean.deviation))
+                let mean = group.mean(name);
+                mean.map_or_else(none, |m| format!("{:.3} ± {:.3}", m.mean, m.deviation))
             };
             names.iter().map(told).collect()
         })
