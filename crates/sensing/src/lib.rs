@@ -1,9 +1,11 @@
 #![doc = include_str!("../README.md")]
 
+mod depth;
 mod odometry;
 mod robot;
 mod scan;
 
+pub use depth::{Camera, DepthImage};
 pub use odometry::{Odometry, PlaceMatch, Repeated};
 pub use robot::Robot;
 pub use scan::{Reading, Scan};
