@@ -54,9 +54,8 @@ impl Camera {
 
     /// The pixel of a point of the frame `camera`; `None` for a point that is not ahead.
     pub fn pixel_of(&self, point: &Point3<f64>) -> Option<[f64; 2]> {
-        (point.z > 0.0).then(|| {
-            [self.cx + self.fx * point.x / point.z, self.cy + self.fy * point.y / point.z]
-        })
+        (point.z > 0.0)
+            .then(|| [self.cx + self.fx * point.x / point.z, self.cy + self.fy * point.y / point.z])
     }
 }
 
@@ -81,7 +80,7 @@ impl DepthImage {
 
     /// Number of rows; a last row that is not whole does not count.
     pub fn rows(&self) -> usize {
-        if self.columns == 0 { 0 } else { self.depths_m.len() / self.columns }
+        self.depths_m.len().checked_div(self.columns).unwrap_or(0)
     }
 }
 
