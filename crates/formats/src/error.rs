@@ -65,6 +65,12 @@ pub enum FormatError {
         /// The value that fits.
         expected: u64,
     },
+    /// The scale of a depth image is of no use.
+    #[error("a scale of {found} units per metre, expected a positive, finite number")]
+    Scale {
+        /// The scale.
+        found: String,
+    },
     /// The encoder refused an image.
     #[error("cannot encode the image: {reason}")]
     Encode {

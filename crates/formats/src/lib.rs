@@ -1,20 +1,29 @@
 #![doc = include_str!("../README.md")]
 
+pub mod depth;
+pub mod depth_file;
 pub mod map_yaml;
 pub mod mesh;
 pub mod moving_ai;
+pub mod pcd;
 pub mod pgm;
 pub mod ply;
+pub mod ply_cloud;
 pub mod png;
 pub mod pose_graph;
+pub mod tiff;
 pub mod tum;
 
+mod cloud;
 mod error;
 mod gray;
 mod lexer;
 mod lines;
+mod lzf;
 mod sniff;
 
+pub use cloud::Cloud;
+pub use depth::DepthPixels;
 pub use error::{FormatError, MAX_CELLS, Position};
 pub use gray::GrayImage;
 pub use lines::text;

@@ -1,0 +1,103 @@
+//! Why a depth image cannot become a polyhedron.
+
+use thiserror::Error;
+
+/// What is wrong with an image, a cloud, an option or a mesh, with what was found and what fits.
+#[derive(Clone, Debug, PartialEq, Error)]
+#[non_exhaustive]
+pub enum Maps3dError {
+    /// The image is not between 2 x 2 and 16,384 x 16,384 pixels once it is cropped.
+    #[error(
+        "an image of {columns} x {rows} pixels, of which {crop} are cropped on each side: expected \
+         {least} to {most} columns and rows to be left"
+    )]
+    ImageSize {
+        /// Columns before cropping.
+        columns: usize,
+        /// Rows before cropping.
+        rows: usize,
+        /// Pixels cropped on each side.
+        crop: usize,
+        /// The least that must be left.
+        least: usize,
+        /// The most that may be left.
+        most: usize,
+    },
+    /// The depths do not fill the rows.
+    #[error("{depths} depths do not make rows of {columns} pixels")]
+    ImageShape {
+        /// Number of depths.
+        depths: usize,
+        /// Number of columns.
+        columns: usize,
+    },
+    /// The camera cannot be used.
+    #[error(
+        "a camera of fx {fx}, fy {fy}, cx {cx}, cy {cy}: expected finite numbers, fx and fy not 0"
+    )]
+    Camera {
+        /// Focal length along columns, pixels.
+        fx: f64,
+        /// Focal length along rows, pixels.
+        fy: f64,
+        /// Column of the optical axis.
+        cx: f64,
+        /// Row of the optical axis.
+        cy: f64,
+    },
+    /// An option is out of its range.
+    #[error("{option} is {found}, expected {expected}")]
+    Option {
+        /// The option.
+        option: &'static str,
+        /// Its value.
+        found: f64,
+        /// What fits.
+        expected: &'static str,
+    },
+    /// Too many points of a cloud share one place.
+    #[error(
+        "{points} points of the cloud are at ({x}, {y}, {z}), at most {limit} may share a place; \
+         they can be taken as missing instead"
+    )]
+    Duplicates {
+        /// Points at the place that most share.
+        points: usize,
+        /// The most that may.
+        limit: usize,
+        /// Its x, metres.
+        x: f32,
+        /// Its y, metres.
+        y: f32,
+        /// Its z, metres.
+        z: f32,
+    },
+    /// The cloud has one row: its points are in no image.
+    #[error("a cloud of {points} points in {rows} row(s) is not organised as an image")]
+    NotOrganised {
+        /// Number of points.
+        points: usize,
+        /// Number of rows.
+        rows: usize,
+    },
+    /// The points of a cloud lie on no common camera's rays.
+    #[error(
+        "no pinhole camera fits the cloud: points lie {error_px:.2} pixels (95 %) from their rays, \
+         at most {limit_px} may be; give the camera, or undistort the cloud"
+    )]
+    NoCamera {
+        /// The distance that 95 % of the points keep, pixels; NaN where too few points are valid.
+        error_px: f64,
+        /// The limit.
+        limit_px: f64,
+    },
+    /// The reduced mesh is not a triangulation of the image.
+    #[error("not a triangulation of the image: {fault}")]
+    NotPlanar {
+        /// The first thing that is wrong.
+        fault: String,
+    },
+    /// The polyhedron was refused.
+    #[error(transparent)]
+    Solid(#[from] solid::SolidError),
+}

@@ -1,0 +1,202 @@
+//! Greedy insertion, and what polishes it.
+
+use probe::Probe;
+
+use super::delaunay::Delaunay;
+use super::fit::fit;
+use super::flips::flip_round;
+use super::guide::median_of_nine;
+use super::scan::{LiftedPlane, Scanned, scan};
+use crate::DepthEvent;
+use crate::image::FilledImage;
+use crate::reduce::Stop;
+use crate::reduce::heap::IndexedHeap;
+use crate::triangulate::ImageMesh;
+
+/// How the project's own reduction chooses.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct InverseDepth {
+    /// No pixel counts for more than this, metres: what is far off belongs to another surface. Below 400
+    /// vertices it is larger, in proportion.
+    pub cap_m: f64,
+    /// How much a face's summed distance counts against its largest: 0 the largest alone, 1 the sum.
+    pub sum_weight: f64,
+    /// Distances count more for faces seen under an angle whose sine is below this.
+    pub edge_on: f64,
+    /// Vertices are chosen by a median of nine pixels, which lone outliers do not get through.
+    pub median: bool,
+    /// Rounds in which sides are turned.
+    pub flip_rounds: usize,
+    /// Depths of vertices are fitted to all pixels; pixels farther off than this hardly count,
+    /// metres. Not at all where it is 0.
+    pub fit_m: f64,
+}
+
+impl Default for InverseDepth {
+    fn default() -> Self {
+        Self {
+            cap_m: 0.3,
+            sum_weight: 0.7,
+            edge_on: 0.1,
+            median: true,
+            flip_rounds: 2,
+            fit_m: 0.05,
+        }
+    }
+}
+
+/// Below so many vertices the cap is larger, in proportion: a face that covers several surfaces has
+/// most of its pixels beyond any small cap, and the sum would no longer tell good from bad.
+const COARSE: f64 = 400.0;
+
+impl InverseDepth {
+    /// The cap while there are so many vertices, metres.
+    pub(super) fn cap_at(&self, vertices: usize) -> f64 {
+        self.cap_m * (COARSE / vertices as f64).max(1.0)
+    }
+
+    /// Vertices at measured depths, chosen by their distance alone: what a bound on the error asks for.
+    fn exact() -> Self {
+        Self {
+            cap_m: f64::INFINITY,
+            sum_weight: 0.0,
+            edge_on: 0.0,
+            median: false,
+            flip_rounds: 0,
+            fit_m: 0.0,
+        }
+    }
+}
+
+/// Reduces an image to `stop.vertices()`, or until no pixel is farther than `stop.error_m()` from the
+/// plane of its face.
+///
+/// 1. Two faces cover the image.
+/// 2. Every pixel of a new face is measured against the face's plane, in metres.
+/// 3. The face that is worst by largest and summed distance gets its worst pixel as a vertex; sides
+///    are turned until the triangulation is Delaunay again. Back to 2.
+/// 4. For a count of vertices, not for a bound: depths are fitted, sides turned, depths fitted again.
+///
+/// With a bound, vertices keep their measured depths, no median is taken and step 4 is left out: the
+/// bound then holds for every pixel. O(pixels log vertices) for images in which detail is spread.
+pub(in crate::reduce) fn grow<P>(
+    image: &FilledImage,
+    options: &InverseDepth,
+    stop: &Stop,
+    ladder: &[usize],
+    probe: &mut P,
+) -> ImageMesh
+where
+    P: for<'e> Probe<DepthEvent<'e>>,
+{
+    let exact = InverseDepth::exact();
+    let options = if stop.error_m().is_some() { &exact } else { options };
+    let smooth = options.median.then(|| median_of_nine(image));
+    let guide = smooth.as_deref().unwrap_or(image.depths_m());
+    let mut grown = Grown::new(image, guide, options);
+    let mut steps: Vec<usize> = ladder.to_vec();
+    steps.sort_unstable_by(|a, b| b.cmp(a));
+    loop {
+        grown.measure_changed();
+        let vertices = grown.mesh.pixels.len();
+        while steps.last().is_some_and(|&step| step <= vertices) {
+            if steps.pop() == Some(vertices) && probe.on() {
+                probe.emit(DepthEvent::Reached { image, mesh: &grown.image_mesh() });
+            }
+        }
+        if stop.vertices().is_some_and(|enough| vertices >= enough) {
+            break;
+        }
+        let Some(triangle) = grown.worst(stop.error_m().unwrap_or(0.0)) else { break };
+        let Scanned { worst, worst_m, .. } = grown.scans[triangle as usize];
+        grown.insert(triangle);
+        if probe.on() {
+            let error_m = f64::from(worst_m);
+            probe.emit(DepthEvent::Inserted { pixel: worst, error_m, vertices: vertices + 1 });
+        }
+    }
+    if options.fit_m > 0.0 {
+        grown.fit(probe);
+    }
+    for round in 0..options.flip_rounds {
+        let sides = flip_round(image, &mut grown.mesh, &grown.inverse, options);
+        probe.emit(DepthEvent::Flipped { round, sides });
+    }
+    if options.fit_m > 0.0 && options.flip_rounds > 0 {
+        grown.fit(probe);
+    }
+    grown.image_mesh()
+}
+
+struct Grown<'a> {
+    image: &'a FilledImage,
+    guide: &'a [f32],
+    options: &'a InverseDepth,
+    mesh: Delaunay,
+    /// Inverse depth of each vertex.
+    inverse: Vec<f64>,
+    scans: Vec<Scanned>,
+    heap: IndexedHeap,
+}
+
+impl<'a> Grown<'a> {
+    fn new(image: &'a FilledImage, guide: &'a [f32], options: &'a InverseDepth) -> Self {
+        let mesh = Delaunay::new(image.corners());
+        let at = |&pixel: &_| 1.0 / f64::from(guide[image.index(pixel)]);
+        let inverse = mesh.pixels.iter().map(at).collect();
+        let (scans, heap) = (Vec::new(), IndexedHeap::default());
+        Self { image, guide, options, mesh, inverse, scans, heap }
+    }
+
+    #[expect(clippy::cast_possible_truncation, reason = "an order, not a measurement")]
+    fn measure_changed(&mut self) {
+        self.scans.resize(self.mesh.corners.len(), Scanned::default());
+        let weight = self.options.sum_weight as f32;
+        for &triangle in &self.mesh.changed {
+            let pixels = self.mesh.pixels_of(triangle);
+            let inverse = self.mesh.corners[triangle as usize].map(|v| self.inverse[v as usize]);
+            let plane = LiftedPlane::through(self.image.camera(), pixels, inverse);
+            let emphasis = plane.emphasis(inverse, self.options.edge_on) as f32;
+            let cap_m = self.options.cap_at(self.mesh.pixels.len()) as f32 / emphasis;
+            let found = scan(self.guide, self.image.columns(), pixels, &plane, cap_m);
+            let largest = found.worst_m.min(cap_m);
+            let key = if weight == 0.0 {
+                largest
+            } else {
+                largest.powf(1.0 - weight) * found.sum_m.powf(weight)
+            } * emphasis;
+            self.scans[triangle as usize] = found;
+            // A corner is off by rounding alone: such a face has nothing left to give.
+            let spent = pixels.contains(&found.worst) || found.worst_m <= 0.0;
+            self.heap.set(triangle, if spent { 0.0 } else { -key });
+        }
+    }
+
+    /// The face to split next: the worst, if it is off by more than the bound.
+    fn worst(&self, bound_m: f64) -> Option<u32> {
+        let (key, triangle) = self.heap.first()?;
+        let worst_m = f64::from(self.scans[triangle as usize].worst_m);
+        (key < 0.0 && worst_m > bound_m).then_some(triangle)
+    }
+
+    fn insert(&mut self, triangle: u32) {
+        let pixel = self.scans[triangle as usize].worst;
+        self.mesh.insert(pixel, triangle);
+        self.inverse.push(1.0 / f64::from(self.guide[self.image.index(pixel)]));
+    }
+
+    fn fit<P: for<'e> Probe<DepthEvent<'e>>>(&mut self, probe: &mut P) {
+        let mut mesh = self.image_mesh();
+        fit(self.image, &mut mesh, self.options);
+        self.inverse = mesh.depths_m.iter().map(|depth_m| 1.0 / depth_m).collect();
+        probe.emit(DepthEvent::Fitted { mesh: &mesh });
+    }
+
+    fn image_mesh(&self) -> ImageMesh {
+        ImageMesh {
+            pixels: self.mesh.pixels.clone(),
+            depths_m: self.inverse.iter().map(|inverse| 1.0 / inverse).collect(),
+            triangles: self.mesh.corners.clone(),
+        }
+    }
+}

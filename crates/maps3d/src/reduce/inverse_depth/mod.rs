@@ -1,0 +1,25 @@
+//! The project's own reduction: few faces in inverse depth, judged in metres.
+//!
+//! A plane of space is affine in inverse depth, so a wall costs two faces at any viewing angle. See
+//! `docs/depth.md` of the crate for the numbered steps.
+//!
+//! | file | stage |
+//! |---|---|
+//! | `guide.rs` | the image that vertices are chosen by: a median of nine |
+//! | `delaunay.rs` | a Delaunay triangulation that grows pixel by pixel, in whole numbers |
+//! | `scan.rs` | the distance of every pixel of a face from its lifted plane |
+//! | `grow.rs` | greedy insertion |
+//! | `flips.rs` | sides turned where that brings faces nearer to the pixels |
+//! | `fit.rs` | depths of vertices fitted to all pixels |
+
+mod delaunay;
+mod fit;
+mod flips;
+mod grow;
+mod guide;
+mod scan;
+
+pub(in crate::reduce) use delaunay::in_circle;
+pub use grow::InverseDepth;
+pub(super) use grow::grow;
+pub(crate) use scan::LiftedPlane;

@@ -1,0 +1,12 @@
+//! The local volume of one view: a star-shaped, closed, labelled polyhedron.
+//!
+//! | file | what |
+//! |---|---|
+//! | `join.rs` | the surface joined to the camera (\[Mos15\] 3.8) |
+//! | `star.rs` | membership by direction, in constant time |
+
+mod join;
+mod star;
+
+pub use join::{join, volume_m3};
+pub use star::StarView;
