@@ -78,4 +78,52 @@ pub enum SolidError {
         /// Its own words.
         reason: String,
     },
+    /// No four of the points span a volume.
+    #[error("{points} points, but no four of them that are not in one plane")]
+    Coplanar {
+        /// How many points were given.
+        points: usize,
+    },
+    /// A mesh bounds no volume, or meets itself.
+    #[error("{}", crate::error::listed(.defects))]
+    NoVolume {
+        /// What is wrong, at least one thing.
+        defects: Vec<crate::Defect>,
+    },
+    /// Some faces could not be brought in: doubles leave no room for the points that it would take.
+    #[error(
+        "no tetrahedra with faces {faces:?} were found: between them and their neighbours doubles leave no room for another point"
+    )]
+    NoRoom {
+        /// The faces of the input that are missing, ascending.
+        faces: Vec<u32>,
+    },
+    /// A face is seen from outside by the point that should see all from inside.
+    #[error("face {face} is seen from outside by ({x}, {y}, {z}): no star round that point")]
+    NotStar {
+        /// The face.
+        face: usize,
+        /// The point's x, metres.
+        x: f64,
+        /// The point's y, metres.
+        y: f64,
+        /// The point's z, metres.
+        z: f64,
+    },
+    /// The tetrahedra broke one of their own rules; a bug of ours.
+    #[error("the tetrahedralisation broke its own rule: {rule}")]
+    Broken {
+        /// The rule.
+        rule: String,
+    },
+}
+
+/// The first defects, in words.
+pub(crate) fn listed(defects: &[crate::Defect]) -> String {
+    const MOST: usize = 8;
+    let mut words: Vec<String> = defects.iter().take(MOST).map(ToString::to_string).collect();
+    if defects.len() > MOST {
+        words.push(format!("and {} more", defects.len() - MOST));
+    }
+    words.join("; ")
 }

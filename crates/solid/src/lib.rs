@@ -7,6 +7,7 @@ pub mod predicates;
 pub mod query;
 pub mod reduce;
 pub mod synthetic;
+pub mod tetrahedra;
 pub mod validity;
 
 mod error;
@@ -16,6 +17,7 @@ pub use error::SolidError;
 pub use mesh::{AreaByLabel, Face, Label, Origin, Polyhedron};
 pub use query::{Hit, Side, Solid};
 pub use reduce::{ReduceEvent, Reduced, clean, reduce, reduce_with};
+pub use tetrahedra::{Tetrahedra, TetrahedraEvent, tetrahedralize, tetrahedralize_with};
 pub use validity::{Contact, Crossing, Defect, Validity, check, crossings};
 
 /// A point of space, metres; its frame is in the name of the variable.

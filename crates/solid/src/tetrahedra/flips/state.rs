@@ -1,0 +1,47 @@
+//! A mesh under recovery.
+
+use crate::tetrahedra::constraints::Constraints;
+use crate::tetrahedra::mesh::{Exchange, Mesh, Ring};
+
+/// The mesh, what it must contain, and what was done to it since the last commit.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Work {
+    /// The tetrahedra.
+    pub(crate) mesh: Mesh,
+    /// What must appear.
+    pub(crate) must: Constraints,
+    /// Exchanges that may yet be undone.
+    pub(crate) log: Vec<Exchange>,
+    /// Points on constraints, in the order made.
+    pub(crate) splits: Vec<crate::tetrahedra::steiner::Split>,
+    /// Buffers of the edge removal.
+    pub(crate) table: super::ring::Table,
+    /// The search over small regions, between uses.
+    pub(crate) search: crate::tetrahedra::reconnect::Search,
+    /// Where the last search would have needed more room: the tetrahedra there.
+    pub(crate) blamed: Vec<u32>,
+    /// Rings that are not in use.
+    pub(crate) rings: Vec<Ring>,
+}
+
+impl Work {
+    /// Takes back everything since the log had `mark` entries.
+    pub(crate) fn undo_to(&mut self, mark: usize) {
+        while self.log.len() > mark {
+            if let Some(exchange) = self.log.pop() {
+                self.mesh.undo(&exchange);
+            }
+        }
+    }
+
+    /// Exchanges tetrahedra and writes it down; false, with nothing changed, where they do not fit.
+    pub(crate) fn exchange(&mut self, old: &[u32], new: &[[u32; 4]]) -> bool {
+        match self.mesh.exchange(old, new) {
+            Some(exchange) => {
+                self.log.push(exchange);
+                true
+            }
+            None => false,
+        }
+    }
+}

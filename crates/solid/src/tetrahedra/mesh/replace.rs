@@ -1,0 +1,194 @@
+//! Exchanging some tetrahedra for others that fill the same space, and taking it back.
+
+use super::complex::Mesh;
+use super::tet::{Tet, sorted3};
+
+/// What an exchange did, so that it can be undone.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Exchange {
+    /// The slots that were emptied, with what they held.
+    pub(crate) old: Vec<(u32, Tet)>,
+    /// The slots that were filled, with what they hold.
+    pub(crate) new: Vec<(u32, [u32; 4])>,
+    /// The length of the slot list before.
+    slots_before: usize,
+    /// The slots taken from the free list, in the order taken.
+    taken: Vec<u32>,
+    /// How many old slots went to the free list.
+    freed: usize,
+}
+
+/// A face of the region, by which halves are matched.
+#[derive(Clone, Copy)]
+struct Half {
+    key: [u32; 3],
+    /// Four times the tetrahedron plus the face; for new tetrahedra the place in the list.
+    code: u32,
+    is_new: bool,
+}
+
+impl Mesh {
+    /// Exchanges the tetrahedra `old` for `new`; `None`, and nothing changed, where the new ones do
+    /// not have exactly the old ones' outer faces as their own.
+    ///
+    /// The caller sees to it that the new ones are positive. That they then fill the same space, once,
+    /// follows: the surface is the same, and each has its volume counted positively. O(m log m).
+    pub(crate) fn exchange(&mut self, old: &[u32], new: &[[u32; 4]]) -> Option<Exchange> {
+        let mut halves: Vec<Half> = Vec::with_capacity(4 * (old.len() + new.len()));
+        let epoch = self.next_epoch();
+        for &t in old {
+            self.stamp[t as usize] = epoch;
+        }
+        for &t in old {
+            let tet = *self.tet(t);
+            for f in 0..4 {
+                let code = tet.n[f];
+                if self.stamp[(code >> 2) as usize] != epoch {
+                    halves.push(Half { key: sorted3(tet.face(f)), code, is_new: false });
+                }
+            }
+        }
+        for (i, &v) in new.iter().enumerate() {
+            let tet = Tet { v, n: [0; 4] };
+            for f in 0..4 {
+                halves.push(Half {
+                    key: sorted3(tet.face(f)),
+                    code: (4 * i + f) as u32,
+                    is_new: true,
+                });
+            }
+        }
+        halves.sort_unstable_by_key(|half| (half.key, half.is_new, half.code));
+        if !halves.len().is_multiple_of(2) {
+            return None;
+        }
+        for (i, pair) in halves.chunks_exact(2).enumerate() {
+            let alone = pair[0].key != pair[1].key || !pair[1].is_new;
+            let third = halves.get(2 * i + 2).is_some_and(|next| next.key == pair[0].key);
+            if alone || third {
+                return None;
+            }
+        }
+
+        let mut log = Exchange { slots_before: self.tets.len(), ..Exchange::default() };
+        log.old.extend(old.iter().map(|&t| (t, *self.tet(t))));
+        let mut slots = Vec::with_capacity(new.len());
+        for i in 0..new.len() {
+            if let Some(&slot) = old.get(i) {
+                slots.push(slot);
+            } else {
+                let slot = self.take_slot();
+                if (slot as usize) < log.slots_before {
+                    log.taken.push(slot);
+                }
+                slots.push(slot);
+            }
+        }
+        for &slot in old.iter().skip(new.len()) {
+            self.tets[slot as usize] = Tet::FREE;
+            self.free.push(slot);
+            log.freed += 1;
+        }
+        for (&slot, &v) in slots.iter().zip(new) {
+            self.tets[slot as usize].v = v;
+            for vertex in v {
+                self.at[vertex as usize] = slot;
+            }
+            log.new.push((slot, v));
+        }
+        let code_of = |half: &Half| {
+            if half.is_new {
+                4 * slots[(half.code >> 2) as usize] + (half.code & 3)
+            } else {
+                half.code
+            }
+        };
+        for pair in halves.chunks_exact(2) {
+            self.join(code_of(&pair[0]), code_of(&pair[1]));
+        }
+        Some(log)
+    }
+
+    /// Takes an exchange back, bit for bit; exchanges are taken back in reverse order.
+    pub(crate) fn undo(&mut self, log: &Exchange) {
+        for &(slot, _) in &log.new {
+            self.tets[slot as usize] = Tet::FREE;
+        }
+        self.free.truncate(self.free.len() - log.freed);
+        self.tets.truncate(log.slots_before);
+        self.stamp.truncate(log.slots_before);
+        for &slot in log.taken.iter().rev() {
+            self.free.push(slot);
+        }
+        for &(slot, tet) in &log.old {
+            self.tets[slot as usize] = tet;
+            for vertex in tet.v {
+                self.at[vertex as usize] = slot;
+            }
+        }
+        for &(slot, tet) in &log.old {
+            for (f, &code) in tet.n.iter().enumerate() {
+                self.tets[(code >> 2) as usize].n[(code & 3) as usize] = 4 * slot + f as u32;
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::tetrahedra::delaunay::delaunay_of;
+    use crate::tetrahedra::mesh::Mesh;
+
+    fn some_mesh() -> Mesh {
+        let points = (0..200u32)
+            .map(|i| {
+                let f = f64::from(i);
+                [(f * 0.37).sin(), (f * 0.73).cos(), (f * 1.31).sin() * (f * 0.2).cos()]
+            })
+            .collect();
+        delaunay_of(points, &mut probe::Off).expect("they span a volume").0
+    }
+
+    #[test]
+    fn what_is_undone_never_was() {
+        let mut mesh = some_mesh();
+        assert_eq!(mesh.flaw(), None);
+        let before = mesh.clone();
+        let mut flips = 0;
+        let mut log = Vec::new();
+        for t in 0..before.tets.len() as u32 {
+            let tet = *mesh.tet(t);
+            let far = *mesh.tet(tet.n[0] >> 2);
+            if !tet.is_live() || tet.is_ghost() || far.is_ghost() {
+                continue;
+            }
+            let [x, y, z] = tet.face(0);
+            let (u, v) = (tet.v[0], far.v[(tet.n[0] & 3) as usize]);
+            let new = [[x, y, v, u], [y, z, v, u], [z, x, v, u]];
+            if new.iter().all(|&[a, b, c, d]| mesh.orient(a, b, c, d) > 0.0) {
+                log.push(mesh.exchange(&[t, tet.n[0] >> 2], &new).expect("it fits"));
+                flips += 1;
+            }
+        }
+        assert!(flips > 20, "{flips}");
+        assert_eq!(mesh.flaw(), None);
+        for exchange in log.iter().rev() {
+            mesh.undo(exchange);
+        }
+        assert_eq!(mesh.tets, before.tets);
+        assert_eq!(mesh.free, before.free);
+        assert_eq!(mesh.flaw(), None);
+    }
+
+    #[test]
+    fn what_does_not_fit_is_not_made() {
+        let mut mesh = some_mesh();
+        let before = mesh.tets.clone();
+        let t = mesh.finite().next().expect("there is one");
+        let [a, b, c, d] = mesh.tet(t).v;
+        assert!(mesh.exchange(&[t], &[]).is_none());
+        let stranger = (0..200).find(|v| ![a, b, c, d].contains(v)).expect("another");
+        assert!(mesh.exchange(&[t], &[[a, b, c, stranger]]).is_none());
+        assert_eq!(mesh.tets, before);
+    }
+}

@@ -1,0 +1,105 @@
+//! Putting a point into a mesh that is not Delaunay.
+
+use crate::tetrahedra::flips::Work;
+use crate::tetrahedra::mesh::FACE;
+use crate::tetrahedra::predicates::{P3, orient};
+
+/// A hole larger than this is not made.
+const MOST_TETS: usize = 400;
+
+impl Work {
+    /// Inserts a new vertex at `p`, which lies in or near one of the tetrahedra `start`: the hole grows
+    /// from them until all its faces see the point strictly from inside. `None`, with nothing changed,
+    /// where that would tear out what must stay, or where the point is a vertex.
+    pub(crate) fn insert_steiner(&mut self, p: P3, start: &[u32]) -> Option<u32> {
+        let first = start.iter().copied().find(|&t| {
+            let tet = self.mesh.tet(t);
+            !tet.is_ghost()
+                && (0..4).all(|f| {
+                    let [a, b, c] = FACE[f].map(|i| self.mesh.point(tet.v[i]));
+                    orient(a, b, c, &p) >= 0.0
+                })
+        })?;
+        let mut hole = vec![first];
+        let mut next = 0;
+        while next < hole.len() {
+            let t = hole[next];
+            next += 1;
+            let tet = *self.mesh.tet(t);
+            for f in 0..4 {
+                let other = tet.n[f] >> 2;
+                if hole.contains(&other) {
+                    continue;
+                }
+                let [x, y, z] = tet.face(f);
+                let seen = {
+                    let [a, b, c] = [x, y, z].map(|v| self.mesh.point(v));
+                    orient(a, b, c, &p) > 0.0
+                };
+                if seen {
+                    continue;
+                }
+                if self.must.holds_face(x, y, z)
+                    || self.mesh.tet(other).is_ghost()
+                    || hole.len() >= MOST_TETS
+                {
+                    return None;
+                }
+                hole.push(other);
+            }
+        }
+        let vertex = self.mesh.add_point(p);
+        let mut new = Vec::new();
+        for &t in &hole {
+            let tet = *self.mesh.tet(t);
+            for f in (0..4).filter(|&f| !hole.contains(&(tet.n[f] >> 2))) {
+                let [x, y, z] = tet.face(f);
+                new.push([x, y, z, vertex]);
+            }
+        }
+        let torn = self.tears(&hole, &new, None);
+        let sound = !torn
+            && new.iter().all(|&[x, y, z, _]| {
+                let [a, b, c] = [x, y, z].map(|v| self.mesh.point(v));
+                orient(a, b, c, &p) > 0.0
+            });
+        if !sound || !self.exchange(&hole, &new) {
+            self.mesh.points.pop();
+            self.mesh.at.pop();
+            return None;
+        }
+        Some(vertex)
+    }
+
+    /// Whether exchanging `old` for `new` would lose an edge that must stay, or a vertex other than
+    /// `lost`.
+    pub(super) fn tears(&self, old: &[u32], new: &[[u32; 4]], lost: Option<u32>) -> bool {
+        let mut kept = Vec::with_capacity(6 * new.len());
+        let mut vertices = Vec::with_capacity(4 * new.len());
+        for tet in new {
+            vertices.extend_from_slice(tet);
+            for i in 0..4 {
+                kept.extend((i + 1..4).map(|j| [tet[i].min(tet[j]), tet[i].max(tet[j])]));
+            }
+        }
+        kept.sort_unstable();
+        vertices.sort_unstable();
+        old.iter().any(|&t| {
+            let v = self.mesh.tet(t).v;
+            (0..4).any(|i| {
+                (Some(v[i]) != lost && vertices.binary_search(&v[i]).is_err())
+                    || (i + 1..4).any(|j| {
+                        let edge = [v[i].min(v[j]), v[i].max(v[j])];
+                        kept.binary_search(&edge).is_err() && self.must.holds_edge(v[i], v[j])
+                    })
+            })
+        })
+    }
+
+    /// Takes back everything since the log had `mark` entries and there were `points` points.
+    pub(crate) fn undo_with_points(&mut self, mark: usize, points: usize) {
+        self.undo_to(mark);
+        self.mesh.points.truncate(points);
+        self.mesh.at.truncate(points);
+    }
+}

@@ -1,0 +1,62 @@
+//! Being rid of free points again.
+
+use crate::tetrahedra::flips::Work;
+use crate::tetrahedra::mesh::NONE;
+use crate::tetrahedra::reconnect::Region;
+
+/// How many steps a search takes to fill the hole of a point without it.
+const STEPS: u32 = 400;
+/// The largest region that is searched.
+const MOST: usize = 32;
+
+impl Work {
+    /// Removes a free point, on no constraint, by drawing it onto a neighbour or by filling its hole
+    /// anew. False, with nothing changed, where neither works.
+    pub(crate) fn remove_free(&mut self, s: u32) -> bool {
+        let star = self.mesh.star(s);
+        if star.iter().any(|&t| self.mesh.tet(t).is_ghost()) {
+            return false;
+        }
+        let mut around: Vec<u32> = Vec::new();
+        for &t in &star {
+            around.extend(self.mesh.tet(t).v.iter().filter(|&&v| v != s));
+        }
+        around.sort_unstable();
+        around.dedup();
+        for &to in &around {
+            let mut new = Vec::new();
+            let fits = star.iter().all(|&t| {
+                let tet = self.mesh.tet(t);
+                if tet.v.contains(&to) {
+                    return true;
+                }
+                let moved = tet.v.map(|v| if v == s { to } else { v });
+                new.push(moved);
+                let [a, b, c, d] = moved;
+                self.mesh.orient(a, b, c, d) > 0.0
+            });
+            if fits && self.exchange(&star, &new) {
+                self.mesh.at[s as usize] = NONE;
+                return true;
+            }
+        }
+        let mut region = Region::of(&self.mesh, &star);
+        for _ in 0..6 {
+            if region.vertices.len() > MOST {
+                return false;
+            }
+            if self.reconnect(&region, &[], &[], Some(s), STEPS) {
+                self.mesh.at[s as usize] = NONE;
+                return true;
+            }
+            let blamed = std::mem::take(&mut self.blamed);
+            if blamed.is_empty() {
+                return false;
+            }
+            for t in blamed {
+                region.add(&self.mesh, t);
+            }
+        }
+        false
+    }
+}

@@ -1,0 +1,100 @@
+//! Points on segments and in facets, for the time being.
+
+use crate::tetrahedra::flips::Work;
+use crate::tetrahedra::mesh::Ring;
+use crate::tetrahedra::predicates::P3;
+
+/// A point that was put on a constraint, and what the constraint was before.
+#[derive(Clone, Debug)]
+pub(crate) struct Split {
+    /// The point.
+    pub(crate) vertex: u32,
+    /// The facets that it divided: corners and input face, with how many copies.
+    pub(crate) facets: Vec<([u32; 3], u32, u32)>,
+}
+
+/// Where along a segment to divide it, in the order tried.
+const PLACES: [f64; 17] = [
+    0.5, 0.375, 0.625, 0.25, 0.75, 0.125, 0.875, 0.45, 0.55, 0.0625, 0.9375, 0.3, 0.7, 0.03125,
+    0.96875, 0.01, 0.99,
+];
+
+impl Work {
+    /// Divides a missing segment by a point on it, up to rounding, and its facets with it. False, with
+    /// nothing changed, where no place is found.
+    pub(crate) fn split_segment(&mut self, id: u32) -> bool {
+        let [a, b] = self.must.segments[id as usize].ends;
+        let facets = self.must.segments[id as usize].faces.clone();
+        let (p, q) = (*self.mesh.point(a), *self.mesh.point(b));
+        for t in PLACES {
+            let place = [0, 1, 2].map(|k| p[k] * (1.0 - t) + q[k] * t);
+            let way = self.mesh.way(a, b);
+            let start = self.with_neighbours(&way.tets);
+            if let Some(vertex) = self.insert_steiner(place, &start) {
+                let mut halves = Vec::new();
+                for &facet in &facets {
+                    let corners = self.must.facets[facet as usize].corners;
+                    let with = |from: u32| corners.map(|v| if v == from { vertex } else { v });
+                    halves.push((facet, vec![with(a), with(b)]));
+                }
+                self.divide(vertex, halves);
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Divides a missing facet by a point in it, up to rounding.
+    pub(crate) fn split_facet(&mut self, id: u32) -> bool {
+        let corners = self.must.facets[id as usize].corners;
+        let points = corners.map(|v| *self.mesh.point(v));
+        let mut tets = Vec::new();
+        let mut ring = Ring::default();
+        let passing = self.passing(corners);
+        for &(t, u, v) in &passing {
+            if self.mesh.ring(t, u, v, usize::MAX, &mut ring) {
+                tets.extend_from_slice(&ring.tets);
+            }
+        }
+        let mut places: Vec<P3> =
+            passing.iter().filter_map(|&(_, u, v)| self.pierce(corners, u, v)).collect();
+        for w in [[1.0, 1.0, 1.0], [2.0, 1.0, 1.0], [1.0, 2.0, 1.0], [1.0, 1.0, 2.0]] {
+            let sum: f64 = w.iter().sum();
+            places.push([0, 1, 2].map(|k| (0..3).map(|i| points[i][k] * (w[i] / sum)).sum()));
+        }
+        let start = self.with_neighbours(&tets);
+        for place in places {
+            if let Some(vertex) = self.insert_steiner(place, &start) {
+                let parts = corners
+                    .map(|from| corners.map(|v| if v == from { vertex } else { v }))
+                    .to_vec();
+                self.divide(vertex, vec![(id, parts)]);
+                return true;
+            }
+        }
+        false
+    }
+
+    /// Where the edge `u`, `v` passes the plane of a triangle, about.
+    fn pierce(&self, corners: [u32; 3], u: u32, v: u32) -> Option<P3> {
+        let [a, b, c] = corners;
+        let (above, below) = (self.mesh.orient(a, b, c, u), self.mesh.orient(a, b, c, v));
+        let t = above / (above - below);
+        let (p, q) = (self.mesh.point(u), self.mesh.point(v));
+        (t > 0.0 && t < 1.0).then(|| [0, 1, 2].map(|k| p[k] * (1.0 - t) + q[k] * t))
+    }
+
+    fn divide(&mut self, vertex: u32, halves: Vec<(u32, Vec<[u32; 3]>)>) {
+        let mut before = Vec::new();
+        for (facet, parts) in halves {
+            let old = self.must.facets[facet as usize].clone();
+            self.must.remove(facet);
+            before.push((old.corners, old.input, old.copies));
+            for part in parts {
+                let id = self.must.add(part, old.input);
+                self.must.facets[id as usize].copies = old.copies;
+            }
+        }
+        self.splits.push(Split { vertex, facets: before });
+    }
+}
