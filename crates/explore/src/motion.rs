@@ -44,6 +44,7 @@ impl Explorer {
             Some((vertex, vertex_from_body)) => {
                 self.standing.vertex = vertex;
                 self.standing.vertex_from_body = vertex_from_body;
+                self.odom_from_vertex = self.odometry_of(vertex);
             }
             None => {
                 let here_from_there = self.standing.vertex_from_body * odometry.before_from_after;

@@ -3,8 +3,8 @@
 //!
 //! How a run comes to its end: a goal is given up when it is reached and still there; when no motion
 //! towards it keeps even the least clearance, from where it was seen or from another place; and when
-//! the robot has acted for longer than going there takes, and nothing new was left or gone
-//! (`patience`). A goal that is given up takes the frontier around it out of the count for good. New
+//! the robot has acted for longer than going there takes, and nothing new was left or gone, or went
+//! for the same goal again and again (`patience`). A goal that is given up takes the frontier around it out of the count for good. New
 //! frontier comes only from new views, so in a bounded place that comes to an end; and whatever a map
 //! answers, the step limit ends the run as not complete.
 

@@ -48,7 +48,7 @@ impl Explorer {
             goal_in_body: motion.to_in_body,
         });
         let distance_m = motion.to_in_body.coords.norm();
-        if !self.is_worth_going(distance_m, params) {
+        if !self.is_worth_going(&candidate.goals_in_body[0], distance_m, params) {
             self.give_up(&candidate.goals_in_body[0], GiveUp::NothingNew, params, probe);
             return false;
         }

@@ -49,9 +49,13 @@ impl Explorer {
                 }
             }
             Route::Drive(points) => {
-                if self.is_worth_going(length_m, params) {
+                let Some(goal) = points.last() else {
+                    self.finish(Ending::Stuck, probe);
+                    return;
+                };
+                if self.is_worth_going(goal, length_m, params) {
                     self.drive_towards(robot, &points, params, probe);
-                } else if let Some(goal) = points.last() {
+                } else {
                     self.give_up(goal, GiveUp::NothingNew, params, probe);
                 }
             }

@@ -149,10 +149,24 @@ fn a_frontier_that_stays_ahead_is_not_chased_for_ever() {
     assert_eq!(played.ending, Some(Ending::Complete));
 }
 
+/// A frontier that is always where the robot is not.
+fn fleeing() -> Sketch {
+    let spot = Spot { changes_sides: true, closes_within_m: 0.0, ..Spot::new(3.0, 0.0) };
+    Sketch::new(vec![spot])
+}
+
 #[test]
 fn going_to_and_fro_ends_though_the_sum_of_what_is_left_has_other_bits_each_time() {
-    let fleeing = Spot { changes_sides: true, closes_within_m: 0.0, ..Spot::new(3.0, 0.0) };
-    let played = play(Sketch::new(vec![fleeing]), RapidParams::default());
+    let played = play(fleeing(), RapidParams::default());
+    assert_eq!(played.heard.given_up(), [GiveUp::NothingNew]);
+    assert_eq!(played.ending, Some(Ending::Complete));
+}
+
+#[test]
+fn a_cycle_that_leaves_more_behind_each_time_ends() {
+    let mut map = fleeing();
+    map.out_of_view_m = |scans| f64::from(scans / 5);
+    let played = play(map, RapidParams::default());
     assert_eq!(played.heard.given_up(), [GiveUp::NothingNew]);
     assert_eq!(played.ending, Some(Ending::Complete));
 }

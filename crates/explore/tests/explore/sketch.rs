@@ -56,6 +56,8 @@ pub struct Sketch {
     pub detour: Option<Point2>,
     /// Answers to [`ExplorationMap::route`], then `None`.
     pub routes: VecDeque<Route>,
+    /// Length of frontier out of view after so many scans, metres.
+    pub out_of_view_m: fn(u32) -> f64,
     first_from_vertex: Vec<Se2>,
     scans: u32,
 }
@@ -68,6 +70,8 @@ impl Sketch {
             clearance: |_, _| 1.0,
             detour: None,
             routes: VecDeque::new(),
+            // A sum that is kept up to date over a long run never has the same bits twice.
+            out_of_view_m: |scans| 1e-12 * f64::from(scans),
             first_from_vertex: vec![Se2::identity()],
             scans: 0,
         }
@@ -116,9 +120,8 @@ impl ExplorationMap for Sketch {
     }
 
     fn frontier(&self) -> Frontier {
-        // A sum that is kept up to date over a long run never has the same bits twice.
         let places = self.spots.len();
-        let open_m = places as f64 + 1e-12 * f64::from(self.scans);
+        let open_m = places as f64 + (self.out_of_view_m)(self.scans);
         Frontier { open_m, ignored_m: 0.0, places }
     }
 
@@ -243,13 +246,13 @@ pub struct Played {
     pub explorer: Explorer,
 }
 
-/// Plays at most 500 steps; a run that has not ended by then has no ending.
+/// Plays at most 2,000 steps; a run that has not ended by then has no ending.
 pub fn play(map: Sketch, params: RapidParams) -> Played {
     let params = ExploreParams { policy: Policy::Rapid(params), ..ExploreParams::default() };
     let mut explorer = Explorer::new(vec![Box::new(map)], params);
     let (mut robot, mut heard) = (Puppet::default(), Heard::default());
     let mut ending = None;
-    for _ in 0..500 {
+    for _ in 0..2_000 {
         ending = explorer.step(&mut robot, &mut heard).ending;
         if ending.is_some() {
             break;
