@@ -9,11 +9,13 @@
 //!    seeded stream; the information is the inverse covariance of that noise, in g2o's scaling, so
 //!    that `χ²` per degree of freedom is about 1 at the optimum.
 //! 4. The start values are the odometry chained from the first true pose, as graph files have them.
-//! 5. On demand, wrong loop closures are added to any graph ([`with_outliers`]).
+//! 5. On demand, wrong loop closures are added to any graph ([`with_outliers`],
+//!    [`with_wrong_closures`]), and what a method made of them is judged ([`WithOutliers::judge`]).
 //!
 //! The same parameters give the same graph. The layouts follow the public graphs of the same names
 //! (sphere and torus: Kaess; Manhattan: Olson 2006; city: Kaess 2012).
 
+mod judgement;
 mod lattice;
 mod measure;
 mod outliers;
@@ -21,9 +23,10 @@ mod ring;
 mod surfaces;
 mod walk;
 
+pub use judgement::Judgement;
 pub use lattice::{Lattice, lattice};
 pub use measure::{Noise, Synthetic};
-pub use outliers::{WithOutliers, with_outliers};
+pub use outliers::{WithOutliers, Wrong, with_outliers, with_wrong_closures};
 pub use ring::{Ring, ring};
 pub use surfaces::{Sphere, Torus, sphere, torus};
 pub use walk::{Walk, city, manhattan, walk};

@@ -1,6 +1,6 @@
 //! Loop closures that are wrong.
 
-use pose::nalgebra::{Quaternion, UnitQuaternion, Vector3};
+use pose::nalgebra::{Quaternion, SVector, UnitQuaternion, Vector3};
 
 use super::measure::Draw;
 use crate::factors::{Factor, FactorGraph};
@@ -15,17 +15,46 @@ pub struct WithOutliers<P, const D: usize> {
     pub wrong: Vec<usize>,
 }
 
-/// Adds wrong loop closures until they are this share of all loop closures.
+/// What wrong loop closures look like.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Wrong {
+    /// As between two random poses in the box around the map: nothing speaks for them.
+    #[default]
+    Anywhere,
+    /// As between two poses at the same place: two places that look alike are taken for one. Translations
+    /// are normal with a deviation of 0.3 m, rotations of 10 degrees around each axis.
+    Alike,
+}
+
+/// Metres, of each axis.
+const ALIKE_M: f64 = 0.3;
+
+/// Radians, around each axis.
+const ALIKE_RAD: f64 = 10.0 * std::f64::consts::PI / 180.0;
+
+/// Adds wrong loop closures as between random poses until they are this share of all loop closures.
 ///
-/// Each joins two random vertices that are not neighbours in the order of vertices. Its pose is that
-/// between two random points of the box around `map`, turned at random; its information is that of
-/// a random genuine closure. `map` holds `map_from_body` of every vertex. `share` is taken into
-/// 0..=0.99; a graph without closures stays as it is, for there is no information to copy.
+/// [`with_wrong_closures`] of [`Wrong::Anywhere`].
 pub fn with_outliers<P: Rigid<D>, const D: usize>(
     graph: &FactorGraph<P, D>,
     map: &[P],
     share: f64,
     seed: u64,
+) -> WithOutliers<P, D> {
+    with_wrong_closures(graph, map, share, seed, Wrong::Anywhere)
+}
+
+/// Adds wrong loop closures until they are this share of all loop closures.
+///
+/// Each joins two random vertices that are not neighbours in the order of vertices; its information is
+/// that of a random genuine closure. `map` holds `map_from_body` of every vertex. `share` is taken into
+/// 0..=0.99; a graph without closures stays as it is, for there is no information to copy.
+pub fn with_wrong_closures<P: Rigid<D>, const D: usize>(
+    graph: &FactorGraph<P, D>,
+    map: &[P],
+    share: f64,
+    seed: u64,
+    wrong: Wrong,
 ) -> WithOutliers<P, D> {
     let mut graph = graph.clone();
     let vertices = graph.ids.len().min(map.len());
@@ -47,9 +76,20 @@ pub fn with_outliers<P: Rigid<D>, const D: usize>(
                 break (a.min(b), a.max(b));
             }
         };
-        let [a, b] = std::array::from_fn(|_| anywhere::<P, D>(&mut draw, low, high));
+        let from_from_to = match wrong {
+            Wrong::Anywhere => {
+                let [a, b] = std::array::from_fn(|_| anywhere::<P, D>(&mut draw, low, high));
+                a.between(&b)
+            }
+            Wrong::Alike => {
+                let step = SVector::from_fn(|k, _| {
+                    draw.normal() * if k < P::DIM { ALIKE_M } else { ALIKE_RAD }
+                });
+                P::identity().retract(&step)
+            }
+        };
         let information = graph.factors[genuine[draw.below(genuine.len())]].information;
-        graph.factors.push(Factor { from, to, from_from_to: a.between(&b), information });
+        graph.factors.push(Factor { from, to, from_from_to, information });
     }
     let wrong = (first..graph.factors.len()).collect();
     WithOutliers { graph, wrong }
