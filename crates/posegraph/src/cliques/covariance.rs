@@ -90,11 +90,54 @@ impl<const D: usize> CliqueTree<D> {
 
     /// The diagonal blocks of the inverse of all variables, by vertex; 0 for those that are held.
     ///
-    /// From the roots down: with `Σ_SS` of the separator, which is part of the parent's, and
-    /// `Y = L_S L_F⁻¹`, the frontals have `Σ_SF = -Σ_SS Y` and `Σ_FF = L_F⁻ᵀ L_F⁻¹ - Yᵀ Σ_SF`
-    /// (Takahashi et al. 1973; Kaess and Dellaert 2009). Cost: as the factorisation.
+    /// Cost: as the factorisation.
     pub(crate) fn diagonal_of_inverse(&self) -> Vec<SMatrix<f64, D, D>> {
         let mut blocks = vec![SMatrix::zeros(); self.clique_of.len()];
+        self.each_clique(|clique, _, all| {
+            for (at, &variable) in clique.frontals.iter().enumerate() {
+                blocks[variable] = all.fixed_view::<D, D>(at * D, at * D).into_owned();
+            }
+        });
+        blocks
+    }
+
+    /// The blocks of the inverse in the columns of the first and the rows of the second variable of each
+    /// pair; 0 where one of them is held, and where no clique holds both.
+    ///
+    /// Variables that a term joins always share a clique. Cost: as the factorisation.
+    pub(crate) fn inverse_within_cliques(
+        &self,
+        pairs: &[(usize, usize)],
+    ) -> Vec<SMatrix<f64, D, D>> {
+        let mut of_variable: Vec<Vec<usize>> = vec![Vec::new(); self.clique_of.len()];
+        for (index, &(a, b)) in pairs.iter().enumerate() {
+            of_variable[a].push(index);
+            of_variable[b].push(index);
+        }
+        let mut blocks = vec![SMatrix::zeros(); pairs.len()];
+        // The clique that each variable was placed in last, as a stamp for `place`.
+        let mut placed = vec![HELD; self.clique_of.len()];
+        self.each_clique(|clique, place, all| {
+            let own = clique.frontals[0];
+            for &variable in clique.frontals.iter().chain(&clique.separator) {
+                placed[variable] = own;
+            }
+            for &index in clique.frontals.iter().flat_map(|&variable| &of_variable[variable]) {
+                let (a, b) = pairs[index];
+                if placed[a] == own && placed[b] == own {
+                    blocks[index] = all.fixed_view::<D, D>(place[b], place[a]).into_owned();
+                }
+            }
+        });
+        blocks
+    }
+
+    /// Calls back with each clique, the rows at which its variables stand, and its covariance.
+    ///
+    /// From the roots down: with `Σ_SS` of the separator, which is part of the parent's, and
+    /// `Y = L_S L_F⁻¹`, the frontals have `Σ_SF = -Σ_SS Y` and `Σ_FF = L_F⁻ᵀ L_F⁻¹ - Yᵀ Σ_SF`
+    /// (Takahashi et al. 1973; Kaess and Dellaert 2009).
+    fn each_clique(&self, mut told: impl FnMut(&Clique, &[usize], &DMatrix<f64>)) {
         let mut place = vec![0; self.clique_of.len()];
         let mut open: Vec<(usize, DMatrix<f64>)> =
             self.roots.iter().map(|&root| (root, DMatrix::zeros(0, 0))).collect();
@@ -105,10 +148,7 @@ impl<const D: usize> CliqueTree<D> {
             for (at, &variable) in clique.frontals.iter().chain(&clique.separator).enumerate() {
                 place[variable] = at * D;
             }
-            for &variable in &clique.frontals {
-                let at = place[variable];
-                blocks[variable] = all.fixed_view::<D, D>(at, at).into_owned();
-            }
+            told(clique, &place, &all);
             for &child in &clique.children {
                 let separator = &self.cliques[child].separator;
                 let mut part = DMatrix::zeros(separator.len() * D, separator.len() * D);
@@ -121,7 +161,6 @@ impl<const D: usize> CliqueTree<D> {
                 open.push((child, part));
             }
         }
-        blocks
     }
 }
 

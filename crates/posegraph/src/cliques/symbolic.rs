@@ -5,10 +5,11 @@ use std::ops::Range;
 use super::order::order;
 use super::tree::{CliqueTree, HELD, Term};
 
-/// A column joins the clique beneath it where that stores at most this many zeros, in blocks ...
+/// A column joins the clique beneath it where that then stores at most this many zeros, in blocks ...
 const ZEROS: usize = 8;
 
-/// ... or at most this share of the clique, in percent.
+/// ... or at most this share of the clique, in percent. All zeros count that joining has brought: of
+/// the last column alone a chain would become one clique, and dense.
 const ZEROS_PERCENT: usize = 10;
 
 /// Memory that changes reuse.
@@ -114,6 +115,8 @@ impl<const D: usize> CliqueTree<D> {
 /// Columns that will be a clique.
 struct Group {
     width: usize,
+    /// Blocks that it stores only for its columns to be together.
+    zeros: usize,
     /// The last of its columns.
     end: usize,
     /// Rows of the separator, ascending, as a range of `work.rows`.
@@ -159,10 +162,16 @@ fn group_columns(work: &mut Workspace) -> Vec<Group> {
         }
         work.rows[start..].sort_unstable();
         let separator = start..work.rows.len();
+        let zeros = if longest == HELD {
+            0
+        } else {
+            let Group { width, zeros, separator: before, .. } = &groups[longest];
+            zeros + width * (separator.len() + 1 - before.len())
+        };
         let joined = longest != HELD && {
-            let Group { width, separator: before, .. } = &groups[longest];
-            let zeros = width * (separator.len() + 1 - before.len());
-            zeros <= ZEROS || zeros * 100 <= ZEROS_PERCENT * width * (width + separator.len())
+            let width = groups[longest].width + 1;
+            let stored = width * (width + 1) / 2 + width * separator.len();
+            zeros <= ZEROS || zeros * 100 <= ZEROS_PERCENT * stored
         };
         let group = if joined { longest } else { groups.len() };
         let next = match work.rows.get(start) {
@@ -171,9 +180,9 @@ fn group_columns(work: &mut Workspace) -> Vec<Group> {
         };
         if joined {
             let width = groups[group].width + 1;
-            groups[group] = Group { width, end: column, separator, next };
+            groups[group] = Group { width, zeros, end: column, separator, next };
         } else {
-            groups.push(Group { width: 1, end: column, separator, next });
+            groups.push(Group { width: 1, zeros: 0, end: column, separator, next });
         }
         work.owner.push(group);
     }

@@ -96,6 +96,25 @@ impl<P: Manifold<D>, const D: usize> Marginals<P, D> {
         Some(query::relative(&self.tree, a, b, &from.between(to)))
     }
 
+    /// The joint covariances of pairs that a factor joins, all at once; those of other pairs lack `b_a`
+    /// unless the elimination brought them together. `None` where a vertex is not there.
+    ///
+    /// Cost: about that of the factorisation, for all of them together.
+    pub fn of_joined(&self, pairs: &[(usize, usize)]) -> Vec<Option<JointCovariance<D>>> {
+        let count = self.poses.len();
+        let there = |&(a, b): &(usize, usize)| a.max(b) < count;
+        let known = pairs.iter().copied().filter(there);
+        let asked: Vec<(usize, usize)> = (0..count).map(|own| (own, own)).chain(known).collect();
+        let blocks = self.tree.inverse_within_cliques(&asked);
+        let (own, shared) = blocks.split_at(count);
+        let mut shared = shared.iter();
+        let each = pairs.iter().map(|pair| {
+            let b_a = if there(pair) { *shared.next()? } else { return None };
+            Some(JointCovariance { a_a: own[pair.0], b_a, b_b: own[pair.1] })
+        });
+        each.collect()
+    }
+
     /// The covariances of all vertices at once; 0 for those that are held.
     ///
     /// Cost: about that of the factorisation, for all of them together.

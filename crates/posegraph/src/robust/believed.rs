@@ -65,7 +65,7 @@ impl<P: Manifold<D>, const D: usize> Believed<P, D> {
     ///
     /// Factors without weight would still fill the factor of the matrix: random closures join
     /// everything with everything.
-    fn part(&self, weights: &[f64]) -> (FactorGraph<P, D>, Vec<usize>, Vec<f64>) {
+    pub fn part(&self, weights: &[f64]) -> (FactorGraph<P, D>, Vec<usize>, Vec<f64>) {
         let active: Vec<usize> = (0..weights.len()).filter(|&k| weights[k] > 0.0).collect();
         let graph = FactorGraph {
             ids: self.graph.ids.clone(),

@@ -87,9 +87,6 @@ pub(super) struct Agreement {
     pub spread: f64,
 }
 
-/// A side of the box that is shorter than this share of the longest counts as this.
-const FLAT: f64 = 1e-3;
-
 /// The chain of odometry with its spread: what it says of any two vertices costs the same.
 pub(super) struct Chain<P, const D: usize> {
     poses: Vec<P>,
@@ -176,22 +173,8 @@ impl<P: Manifold<D>, const D: usize> Chain<P, D> {
         Agreement { chi2, spread }
     }
 
-    /// The volume of all relative poses that the robot could have measured: the box around its odometry,
-    /// and every rotation.
-    pub fn volume(&self) -> f64 {
-        let at = |pose: &P| P::error(ErrorKind::Split, &P::identity(), &P::identity(), pose);
-        let axes = if D == 3 { 2 } else { 3 };
-        let mut low = SVector::<f64, D>::repeat(f64::INFINITY);
-        let mut high = SVector::<f64, D>::repeat(f64::NEG_INFINITY);
-        for place in self.poses.iter().map(at) {
-            low = low.inf(&place);
-            high = high.sup(&place);
-        }
-        let sides = high - low;
-        let longest = (0..axes).map(|k| sides[k]).fold(0.0, f64::max);
-        let box_volume: f64 = (0..axes).map(|k| sides[k].max(FLAT * longest)).product();
-        let turns =
-            if D == 3 { std::f64::consts::TAU } else { 2.0 * std::f64::consts::TAU.powi(2) };
-        box_volume * turns
+    /// The poses along it, from the identity.
+    pub fn poses(&self) -> &[P] {
+        &self.poses
     }
 }

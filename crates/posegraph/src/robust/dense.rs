@@ -24,7 +24,10 @@ pub(super) fn cholesky<const D: usize>(matrix: &SMatrix<f64, D, D>) -> Option<SM
 }
 
 /// `L⁻¹ x`.
-fn forward<const D: usize>(lower: &SMatrix<f64, D, D>, mut x: SVector<f64, D>) -> SVector<f64, D> {
+pub(super) fn forward<const D: usize>(
+    lower: &SMatrix<f64, D, D>,
+    mut x: SVector<f64, D>,
+) -> SVector<f64, D> {
     for row in 0..D {
         for before in 0..row {
             x[row] -= lower[(row, before)] * x[before];

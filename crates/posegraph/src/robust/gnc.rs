@@ -62,7 +62,7 @@ pub(super) fn graduate<P: Manifold<D>, const D: usize>(
     }
     let (mut poses, mut iterations) = believed.descend(start, &weights, &believed.options);
     let mut chi2 = believed.chi2(&poses);
-    let mut scale = scale_at(believed, &chi2, &weights, first, WIDEST).max(first);
+    let mut scale = scale_at(believed, &chi2, &chi2, &weights, first, WIDEST).max(first);
     if !seeded {
         scale = first;
     }
@@ -91,7 +91,7 @@ pub(super) fn graduate<P: Manifold<D>, const D: usize>(
         poses = moved;
         iterations += done;
         chi2 = believed.chi2(&poses);
-        scale = scale_at(believed, &chi2, &weights, first, WIDEST);
+        scale = scale_at(believed, &chi2, &chi2, &weights, first, WIDEST);
         limit = gate(scale, D);
         let done = match target {
             Target::Tls => level < limit && !open,

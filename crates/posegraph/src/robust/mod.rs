@@ -60,6 +60,7 @@
 
 mod believed;
 mod chain;
+mod chance;
 mod chi_square;
 mod clique;
 mod dense;
@@ -69,6 +70,8 @@ mod method;
 mod noise;
 mod optimize;
 mod pcm;
+mod prediction;
+mod settle;
 mod soft;
 
 pub use chain::closures;

@@ -1,8 +1,7 @@
 //! How far information matrices are off, and which closures have witnesses.
 
-use std::f64::consts::PI;
-
 use super::chain::{Agreement, Chain, Closure};
+use super::chance::{ball, tangents};
 use super::chi_square::chi_square_quantile;
 use crate::factors::{ErrorKind, FactorGraph, Manifold};
 
@@ -57,10 +56,9 @@ pub(super) fn witnessed<P: Manifold<D>, const D: usize>(
     if let Some(scale) = scale {
         let gate = chi_square_quantile(LOOP_GATE, D) * scale;
         // A random pose passes with the share of the volume that the gate's ellipsoid takes.
-        let ball = if D == 3 { 4.0 / 3.0 * PI } else { PI.powi(3) / 6.0 };
-        let ellipsoid = ball * gate.powi(D as i32).sqrt();
+        let ellipsoid = ball(D) * gate.powi(D as i32).sqrt();
         let compared = (list.len() * WITNESSES) as f64;
-        let widest = FALSE_WITNESSES / compared * chain.volume() / ellipsoid;
+        let widest = FALSE_WITNESSES / compared * tangents(chain.poses()) / ellipsoid;
         for ((index, _), own) in list.iter().zip(&loops) {
             supported[*index] =
                 own.iter().any(|loop_| loop_.chi2 <= gate && loop_.spread <= widest);

@@ -4,10 +4,11 @@ use probe::Probe;
 
 use super::Robust;
 use super::believed::Believed;
-use super::gate::{SLACK, gate, settle};
+use super::gate::{SLACK, gate};
 use super::gnc::{Target, graduate};
 use super::noise::witnessed;
 use super::pcm::consistent;
+use super::settle::settle;
 use super::soft::{loss, switched, with_loss};
 use crate::factors::{FactorGraph, Manifold};
 use crate::solvers::{Loss, OptimizerEvent, Options, Solution};

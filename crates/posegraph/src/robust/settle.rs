@@ -1,0 +1,124 @@
+//! Who is believed in the end.
+
+use super::believed::Believed;
+use super::chance::{ball, errors};
+use super::gate::{gate, scale_at};
+use super::prediction::{Prediction, predictions};
+use crate::factors::Manifold;
+use crate::solvers::{OptimizerEvent, Solution};
+
+/// In the end what is believed as a whole counts up to this many times the scale of closures: a graph
+/// with few closures shows its noise in odometry only.
+const WIDEST: f64 = 100.0;
+
+/// Expected number of random closures, among all that are rejected, that may come within the limits by
+/// chance.
+const CHANCE: f64 = 0.05;
+
+/// Up to here limits grow beyond the gate where chance allows it: real noise has tails.
+const TAILS: f64 = 64.0;
+
+/// Of closures to leave out those go first that are at least this share of the worst as far off: others
+/// may only suffer from them.
+const SHARE_OF_WORST: f64 = 0.25;
+
+/// How often a closure may be left out before it stays out.
+const LEAVINGS: usize = 2;
+
+/// Rounds of judging and optimising again.
+const ROUNDS: usize = 30;
+
+/// Closures that were told apart, and what follows.
+pub(super) struct Settled<P> {
+    pub solution: Solution<P>,
+    /// The `χ²` up to which a closure is believed wherever it is.
+    pub gate: f64,
+    pub iterations: usize,
+}
+
+/// Holds each closure against what the rest of the graph predicts, takes those that agree and leaves the
+/// others out, optimises, and asks again, until nothing changes.
+///
+/// `weights` are those that a method came to; closures of less than ½ are left out at first.
+pub(super) fn settle<P: Manifold<D>, const D: usize>(
+    believed: &Believed<P, D>,
+    mut poses: Vec<P>,
+    weights: &[f64],
+    otherwise: f64,
+    probe: &mut impl for<'e> probe::Probe<OptimizerEvent<'e, P>>,
+) -> Settled<P> {
+    let mut weights: Vec<f64> = (weights.iter().zip(&believed.trusting))
+        .map(|(weight, trusting)| if *weight < 0.5 { 0.0 } else { *trusting })
+        .collect();
+    let mut left = vec![0; weights.len()];
+    let mut iterations = 0;
+    let mut line = 0.0;
+    for _ in 0..ROUNDS {
+        let (moved, done) = believed.descend(&poses, &weights, &believed.options);
+        poses = moved;
+        iterations += done;
+        let judged = judge(believed, &poses, &weights, otherwise);
+        line = judged.gate;
+        let worst = (judged.excess.iter())
+            .filter(|(index, _)| weights[*index] > 0.0)
+            .map(|(_, excess)| *excess)
+            .fold(1.0, |worst, excess| f64::max(worst, SHARE_OF_WORST * excess));
+        let mut changed = false;
+        for (index, excess) in judged.excess {
+            if weights[index] > 0.0 && excess > worst {
+                weights[index] = 0.0;
+                left[index] += 1;
+                changed = true;
+            } else if weights[index] == 0.0 && excess <= 1.0 && left[index] < LEAVINGS {
+                weights[index] = believed.trusting[index];
+                changed = true;
+            }
+        }
+        if !changed {
+            break;
+        }
+    }
+    let solution = believed.finish(&poses, &weights, probe);
+    iterations += solution.report.iterations.len();
+    Settled { solution, gate: line, iterations }
+}
+
+/// How far closures are beyond their limits.
+struct Judged {
+    /// Index, and `χ²` over the limit.
+    excess: Vec<(usize, f64)>,
+    gate: f64,
+}
+
+fn judge<P: Manifold<D>, const D: usize>(
+    believed: &Believed<P, D>,
+    poses: &[P],
+    weights: &[f64],
+    otherwise: f64,
+) -> Judged {
+    let own = believed.chi2(poses);
+    let first = gate(scale_at(believed, &own, &own, weights, otherwise, WIDEST), D);
+    // Scales by what is predicted are larger, but not by more than tails are.
+    let Some(predicted) = predictions(believed, poses, weights, TAILS * TAILS * first) else {
+        // Without predictions the errors themselves must do.
+        let excess = believed.closures().map(|index| (index, own[index] / first)).collect();
+        return Judged { excess, gate: first };
+    };
+    let mut chi2 = own.clone();
+    for prediction in &predicted {
+        chi2[prediction.index] = prediction.chi2;
+    }
+    let line = gate(scale_at(believed, &own, &chi2, weights, otherwise, WIDEST), D);
+    let rejected = predicted.iter().filter(|own| weights[own.index] == 0.0).count().max(1);
+    let room = CHANCE / rejected as f64 * errors(poses, believed.options.error);
+    let excess =
+        (predicted.iter()).map(|own| (own.index, own.chi2 / limit::<D>(own, room, line))).collect();
+    Judged { excess, gate: line }
+}
+
+/// The `χ²` up to which a closure is believed: the gate, or more where the ellipsoid of all errors up
+/// to the limit stays within this volume.
+fn limit<const D: usize>(own: &Prediction, room: f64, line: f64) -> f64 {
+    let reach = (room / (ball(D) * own.spread)).powf(2.0 / D as f64);
+    reach.clamp(line, TAILS * line)
+}
