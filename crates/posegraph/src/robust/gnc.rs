@@ -44,6 +44,15 @@ pub(super) struct Graduated<P> {
     pub iterations: usize,
 }
 
+/// Whether there are enough closures with witnesses to start from.
+pub(super) fn enough<P: Manifold<D>, const D: usize>(
+    believed: &Believed<P, D>,
+    supported: &[bool],
+) -> bool {
+    let supported = supported.iter().filter(|own| **own).count();
+    supported * SEED_SHARE >= believed.closures().count() && supported >= SEED_LEAST
+}
+
 pub(super) fn graduate<P: Manifold<D>, const D: usize>(
     believed: &Believed<P, D>,
     start: &[P],
@@ -52,9 +61,7 @@ pub(super) fn graduate<P: Manifold<D>, const D: usize>(
 ) -> Graduated<P> {
     let first = witnessed.scale.unwrap_or(1.0);
     let mut weights = believed.trusting.clone();
-    let closures = believed.closures().count();
-    let supported = witnessed.supported.iter().filter(|own| **own).count();
-    let seeded = supported * SEED_SHARE >= closures && supported >= SEED_LEAST;
+    let seeded = enough(believed, &witnessed.supported);
     if seeded {
         for index in believed.closures() {
             weights[index] = f64::from(u8::from(witnessed.supported[index]));

@@ -66,6 +66,7 @@ mod clique;
 mod dense;
 mod gate;
 mod gnc;
+mod growth;
 mod method;
 mod noise;
 mod optimize;

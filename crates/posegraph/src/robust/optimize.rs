@@ -5,7 +5,8 @@ use probe::Probe;
 use super::Robust;
 use super::believed::Believed;
 use super::gate::{SLACK, gate};
-use super::gnc::{Target, graduate};
+use super::gnc::{Target, enough, graduate};
+use super::growth::grown;
 use super::noise::witnessed;
 use super::pcm::consistent;
 use super::settle::settle;
@@ -80,6 +81,9 @@ pub fn optimize_robust<P: Manifold<D>, const D: usize>(
         let set = consistent(&believed, scale);
         witnessed.supported = set.members;
         largest_set = Some(set.proven);
+    }
+    if !enough(&believed, &witnessed.supported) {
+        witnessed.supported = grown(&believed, start, scale);
     }
     let target = if robust == Robust::GncGm { Target::GemanMcClure } else { Target::Tls };
     let found = graduate(&believed, start, &witnessed, target);

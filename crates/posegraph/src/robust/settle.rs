@@ -13,10 +13,13 @@ const WIDEST: f64 = 100.0;
 
 /// Expected number of random closures, among all that are rejected, that may come within the limits by
 /// chance.
-const CHANCE: f64 = 0.05;
+const CHANCE: f64 = 0.02;
 
 /// Up to here limits grow beyond the gate where chance allows it: real noise has tails.
-const TAILS: f64 = 64.0;
+const TAILS: f64 = 16.0;
+
+/// Predictions are worked out up to this many times the largest limit that errors alone suggest.
+const ROOM: f64 = 4.0;
 
 /// Of closures to leave out those go first that are at least this share of the worst as far off: others
 /// may only suffer from them.
@@ -98,17 +101,24 @@ fn judge<P: Manifold<D>, const D: usize>(
 ) -> Judged {
     let own = believed.chi2(poses);
     let first = gate(scale_at(believed, &own, &own, weights, otherwise, WIDEST), D);
-    // Scales by what is predicted are larger, but not by more than tails are.
-    let Some(predicted) = predictions(believed, poses, weights, TAILS * TAILS * first) else {
-        // Without predictions the errors themselves must do.
-        let excess = believed.closures().map(|index| (index, own[index] / first)).collect();
-        return Judged { excess, gate: first };
+    let mut beyond = ROOM * TAILS * first;
+    let (predicted, line) = loop {
+        let Some(predicted) = predictions(believed, poses, weights, beyond) else {
+            // Without predictions the errors themselves must do.
+            let excess = believed.closures().map(|index| (index, own[index] / first)).collect();
+            return Judged { excess, gate: first };
+        };
+        let mut told = own.clone();
+        for prediction in &predicted {
+            told[prediction.index] = prediction.chi2;
+        }
+        let line = gate(scale_at(believed, &own, &told, weights, otherwise, WIDEST), D);
+        if TAILS * line <= beyond {
+            break (predicted, line);
+        }
+        // Errors are smaller than what is predicted without them.
+        beyond = ROOM * TAILS * line;
     };
-    let mut chi2 = own.clone();
-    for prediction in &predicted {
-        chi2[prediction.index] = prediction.chi2;
-    }
-    let line = gate(scale_at(believed, &own, &chi2, weights, otherwise, WIDEST), D);
     let rejected = predicted.iter().filter(|own| weights[own.index] == 0.0).count().max(1);
     let room = CHANCE / rejected as f64 * errors(poses, believed.options.error);
     let excess =
