@@ -4,7 +4,8 @@ use pose::{Se2, Se3};
 use posegraph::initial::odometry;
 use posegraph::robust::closures;
 use posegraph::synthetic::{
-    Noise, Ring, Sphere, WithOutliers, manhattan, ring, sphere, with_outliers,
+    Lattice, Noise, Ring, Sphere, WithOutliers, Wrong, lattice, manhattan, ring, sphere,
+    with_outliers, with_wrong_closures,
 };
 use posegraph::{FactorGraph, Options, Rigid, Robust, RobustSolution, optimize, optimize_robust};
 use probe::Off;
@@ -113,6 +114,42 @@ fn the_wrong_closures_of_a_town_are_named() {
 #[test]
 fn the_wrong_closures_of_a_sphere_are_named() {
     all_found(&ball(), &[Robust::GncTls, Robust::Pcm]);
+}
+
+/// Every wrong closure, and nothing else, at these shares.
+fn exactly_found<P: Rigid<D>, const D: usize>(graph: &FactorGraph<P, D>, wrong: Wrong) {
+    let clean = optimize(graph, &odometry(graph), &Options::default());
+    for share in [0.1, 0.3] {
+        let made = with_wrong_closures(graph, &clean.poses, share, 12, wrong);
+        let found = solve(&made.graph, Robust::GncTls);
+        assert_eq!(found.rejected, made.wrong, "{share}");
+        let judgement = made.judge(&found, &clean.poses);
+        assert!(judgement.success() && judgement.precision == 1.0 && judgement.recall == 1.0);
+    }
+}
+
+#[test]
+fn few_genuine_closures_are_all_kept() {
+    let mut graph = town(7);
+    let closes = closures(&graph);
+    let mut index = 0;
+    graph.factors.retain(|_| {
+        index += 1;
+        !closes[index - 1] || index % 8 == 0
+    });
+    exactly_found(&graph, Wrong::Anywhere);
+}
+
+#[test]
+fn places_that_look_alike_are_told_apart() {
+    exactly_found(&town(8), Wrong::Alike);
+}
+
+#[test]
+fn coarse_noise_leaves_no_witnesses_and_still_the_wrong_ones_are_named() {
+    let noise = Noise { translation_m: 0.1, rotation_rad: 0.15 };
+    let coarse = Lattice { side: 5, spacing_m: 1.0, closure_probability: 0.7, noise, seed: 2 };
+    exactly_found(&lattice(&coarse).graph, Wrong::Anywhere);
 }
 
 #[test]

@@ -122,3 +122,38 @@ impl<P: Manifold<D>, const D: usize> Marginals<P, D> {
         self.tree.diagonal_of_inverse()
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::initial::odometry;
+    use crate::synthetic::{Ring, manhattan, ring};
+
+    #[test]
+    fn a_long_chain_does_not_become_one_clique() {
+        for poses in [500, 2000] {
+            let graph = ring(&Ring { poses, ..Ring::default() }).graph;
+            let found = Marginals::new(&graph, &odometry(&graph), ErrorKind::G2o).unwrap();
+            assert!(found.tree.fill() < 9 * 12 * poses, "{}", found.tree.fill());
+        }
+    }
+
+    #[test]
+    fn joined_pairs_at_once_are_those_one_by_one() {
+        let graph = manhattan(120, 5).graph;
+        let found = Marginals::new(&graph, &odometry(&graph), ErrorKind::G2o).unwrap();
+        let mut pairs: Vec<(usize, usize)> =
+            graph.factors.iter().map(|factor| (factor.from, factor.to)).collect();
+        pairs.push((3, 400));
+        let at_once = found.of_joined(&pairs);
+        assert_eq!(at_once.last(), Some(&None));
+        for (&(a, b), joint) in pairs.iter().zip(&at_once).take(graph.factors.len()) {
+            let (joint, expected) = (joint.unwrap(), found.joint(a, b).unwrap());
+            for (joint, expected) in
+                [(joint.a_a, expected.a_a), (joint.b_a, expected.b_a), (joint.b_b, expected.b_b)]
+            {
+                assert!((joint - expected).norm() <= 1e-9 * expected.norm() + 1e-15);
+            }
+        }
+    }
+}

@@ -28,7 +28,8 @@ pub struct RobustSolution<P> {
     /// The same before anything was optimised, by loops of neighbouring closures; `None` where no two
     /// can be compared.
     pub loop_scale: Option<f64>,
-    /// The largest `χ²` at which a closure is believed; infinite where all are.
+    /// The `χ²` that noise exceeds once in a million times: closures are believed at least up to here (with
+    /// losses and switches up to four times as much, which is what stands here); infinite where all are.
     pub gate: f64,
     /// For [`Robust::Pcm`]: whether its set was proven to be the largest.
     pub largest_set: Option<bool>,

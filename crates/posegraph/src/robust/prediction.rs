@@ -133,3 +133,47 @@ impl<const D: usize> Seen<D> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::factors::FactorGraph;
+    use crate::initial::odometry;
+    use crate::solvers::{Options, optimize_weighted};
+    use crate::synthetic::{Lattice, lattice, manhattan};
+
+    /// By how much each closure raises the cost of all, by optimising without it.
+    fn hold_to_trials<P: Manifold<D>, const D: usize>(graph: &FactorGraph<P, D>) {
+        let believed = Believed::new(graph, &Options::default());
+        let solve = |weights: &[f64]| {
+            let start = odometry(graph);
+            optimize_weighted(graph, &start, weights, &Options::default(), &mut probe::Off)
+        };
+        let all = solve(&believed.trusting);
+        let inside = predictions(&believed, &all.poses, &believed.trusting, f64::INFINITY).unwrap();
+        for own in inside.iter().step_by(7) {
+            let mut weights = believed.trusting.clone();
+            weights[own.index] = 0.0;
+            let without = solve(&weights);
+            let raised = all.report.cost - without.report.cost;
+            assert!((own.chi2 - raised).abs() < 0.05 * raised + 0.02, "{} {raised}", own.chi2);
+            let outside = predictions(&believed, &without.poses, &weights, f64::INFINITY).unwrap();
+            let same = outside.iter().find(|other| other.index == own.index).unwrap();
+            assert!((same.chi2 - raised).abs() < 0.05 * raised + 0.02, "{} {raised}", same.chi2);
+            assert!((same.spread / own.spread - 1.0).abs() < 0.05);
+            let bounded = predictions(&believed, &without.poses, &weights, 0.0).unwrap();
+            let bounded = bounded.iter().find(|other| other.index == own.index).unwrap();
+            assert!(bounded.chi2 <= same.chi2 * (1.0 + 1e-9));
+        }
+    }
+
+    #[test]
+    fn a_closure_in_the_plane_raises_the_cost_by_what_is_predicted() {
+        hold_to_trials(&manhattan(150, 3).graph);
+    }
+
+    #[test]
+    fn a_closure_in_space_raises_the_cost_by_what_is_predicted() {
+        hold_to_trials(&lattice(&Lattice { side: 4, ..Lattice::default() }).graph);
+    }
+}

@@ -1,7 +1,10 @@
 //! Who is believed in the end.
 
+use std::f64::consts::TAU;
+
 use super::believed::Believed;
 use super::chance::{ball, errors};
+use super::chi_square::chi_square_quantile;
 use super::gate::{gate, scale_at};
 use super::prediction::{Prediction, predictions};
 use crate::factors::Manifold;
@@ -17,6 +20,13 @@ const CHANCE: f64 = 0.02;
 
 /// Up to here limits grow beyond the gate where chance allows it: real noise has tails.
 const TAILS: f64 = 16.0;
+
+/// Probability with which a good closure passes wherever it is, were its noise Gaussian.
+const ANYWHERE: f64 = 0.99;
+
+/// A wrong closure that is taken counts this many times as much as a genuine one left out: it moves the
+/// map.
+const HARM: f64 = 10.0;
 
 /// Predictions are worked out up to this many times the largest limit that errors alone suggest.
 const ROOM: f64 = 4.0;
@@ -120,15 +130,42 @@ fn judge<P: Manifold<D>, const D: usize>(
         beyond = ROOM * TAILS * line;
     };
     let rejected = predicted.iter().filter(|own| weights[own.index] == 0.0).count().max(1);
-    let room = CHANCE / rejected as f64 * errors(poses, believed.options.error);
+    let taken = (predicted.len() - rejected.min(predicted.len())).max(1);
+    let limits = Limits {
+        gate: line,
+        scale: line / gate(1.0, D),
+        volume: errors(poses, believed.options.error),
+        rejected: rejected as f64,
+        odds: taken as f64 / rejected as f64,
+        least: chi_square_quantile(ANYWHERE, D) / gate(1.0, D) * line,
+    };
     let excess =
-        (predicted.iter()).map(|own| (own.index, own.chi2 / limit::<D>(own, room, line))).collect();
+        (predicted.iter()).map(|own| (own.index, own.chi2 / limits.of::<D>(own))).collect();
     Judged { excess, gate: line }
 }
 
-/// The `χ²` up to which a closure is believed: the gate, or more where the ellipsoid of all errors up
-/// to the limit stays within this volume.
-fn limit<const D: usize>(own: &Prediction, room: f64, line: f64) -> f64 {
-    let reach = (room / (ball(D) * own.spread)).powf(2.0 / D as f64);
-    reach.clamp(line, TAILS * line)
+/// Up to which `χ²` closures are believed.
+struct Limits {
+    gate: f64,
+    scale: f64,
+    /// Of all errors that there can be.
+    volume: f64,
+    rejected: f64,
+    /// Taken closures for each that is rejected.
+    odds: f64,
+    least: f64,
+}
+
+impl Limits {
+    /// More than the gate where chance allows it, and less where the prediction is so loose that an error
+    /// of this size is likelier by chance.
+    fn of<const D: usize>(&self, own: &Prediction) -> f64 {
+        let half = 0.5 * D as f64;
+        let by_chance = CHANCE / self.rejected * self.volume / (ball(D) * own.spread);
+        let density = (TAU * self.scale).powf(half) * own.spread;
+        let even = 2.0 * self.scale * (self.odds / HARM * self.volume / density).ln();
+        // Not `clamp`, which panics where a map is not finite.
+        let least = even.max(self.least).min(self.gate);
+        by_chance.powf(1.0 / half).max(least).min(TAILS * self.gate)
+    }
 }
