@@ -56,4 +56,22 @@ impl Robust {
             Self::Pcm => "pcm",
         }
     }
+
+    /// What the method is, in a line.
+    pub fn about(self) -> &'static str {
+        match self {
+            Self::None => "Every edge is believed",
+            Self::Huber => "Huber's loss",
+            Self::Cauchy => "Cauchy's loss",
+            Self::GemanMcClure => "Geman and McClure's loss",
+            Self::Tls => "Truncated least squares",
+            Self::GncTls => {
+                "Graduated non-convexity towards truncated least squares: finds wrong closures best"
+            }
+            Self::GncGm => "Graduated non-convexity towards Geman and McClure's loss",
+            Self::Dcs => "Dynamic covariance scaling",
+            Self::Switchable => "Switchable constraints",
+            Self::Pcm => "The largest set of closures that agree in pairs",
+        }
+    }
 }

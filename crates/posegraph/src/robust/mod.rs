@@ -48,10 +48,10 @@
 //!    ellipsoid that all rejected closures, were they random, would enter 0.02 times in all. Real noise
 //!    has tails (a genuine closure of KITTI 05 is at 4 gates, one of the parking garage at 7), and where
 //!    the map is large and closures are precise nothing wrong comes near by chance. It is less than the
-//!    gate, down to the 99 % quantile, where the prediction is loose (at the end of a long way without
-//!    closures) and an error of this size is likelier by chance: where the density of the prediction,
-//!    times the closures taken for each rejected, is below ten times that of random closures. One wrong
-//!    closure there moves the whole way.
+//!    gate, down to the 99.9 % quantile, where the prediction is over three times as loose as the closure
+//!    (at the end of a long way without closures) and an error of this size is likelier by chance: where
+//!    the density of the prediction, times the closures taken for each rejected, is below ten times that
+//!    of random closures. One wrong closure there moves the whole way.
 //!
 //! Cost of a round of settling: a factorisation, a pass over the inverse within its cliques, and the way
 //! to the root of the elimination tree for each rejected closure that is not certainly far off

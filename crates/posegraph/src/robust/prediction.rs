@@ -20,6 +20,8 @@ pub(super) struct Prediction {
     pub chi2: f64,
     /// `√det S`.
     pub spread: f64,
+    /// How many times as far as the closure the prediction may be off, as a mean over the axes.
+    pub looseness: f64,
 }
 
 /// Predicts every closure from the factors that weigh something, itself left out.
@@ -110,8 +112,8 @@ impl<const D: usize> Seen<D> {
         let rest = SMatrix::identity() - self.covariance(joint);
         let rest = (rest + rest.transpose()) * 0.5 + SMatrix::identity() * LEAST;
         match quadratic(&rest, &self.error) {
-            Some((chi2, root)) => Prediction { index, chi2, spread: self.spread / root },
-            None => Prediction { index, chi2: 0.0, spread: f64::INFINITY },
+            Some((chi2, root)) => self.told(index, chi2, 1.0 / root),
+            None => self.told(index, 0.0, f64::INFINITY),
         }
     }
 
@@ -128,9 +130,15 @@ impl<const D: usize> Seen<D> {
     fn against(&self, index: usize, covariance: &SMatrix<f64, D, D>) -> Prediction {
         let covariance = (covariance + covariance.transpose()) * 0.5;
         match quadratic(&covariance, &self.error) {
-            Some((chi2, root)) => Prediction { index, chi2, spread: self.spread * root },
-            None => Prediction { index, chi2: self.error.norm_squared(), spread: self.spread },
+            Some((chi2, root)) => self.told(index, chi2, root),
+            None => self.told(index, self.error.norm_squared(), 1.0),
         }
+    }
+
+    /// `root` is `√det S` where the covariance of the closure is 1.
+    fn told(&self, index: usize, chi2: f64, root: f64) -> Prediction {
+        let looseness = root.powf(1.0 / D as f64);
+        Prediction { index, chi2, spread: self.spread * root, looseness }
     }
 }
 

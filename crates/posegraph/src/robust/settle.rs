@@ -21,12 +21,15 @@ const CHANCE: f64 = 0.02;
 /// Up to here limits grow beyond the gate where chance allows it: real noise has tails.
 const TAILS: f64 = 16.0;
 
-/// Probability with which a good closure passes wherever it is, were its noise Gaussian.
-const ANYWHERE: f64 = 0.99;
+/// A prediction may be off so many times as far as the closure and is still no matter of chance.
+const LOOSE: f64 = 3.0;
 
-/// A wrong closure that is taken counts this many times as much as a genuine one left out: it moves the
-/// map.
+/// A wrong closure that is taken where the prediction is looser counts this many times as much as
+/// a genuine one left out: it moves the whole way that leads there.
 const HARM: f64 = 10.0;
+
+/// Probability with which a good closure passes there, were its noise Gaussian.
+const THERE: f64 = 0.999;
 
 /// Predictions are worked out up to this many times the largest limit that errors alone suggest.
 const ROOM: f64 = 4.0;
@@ -137,7 +140,7 @@ fn judge<P: Manifold<D>, const D: usize>(
         volume: errors(poses, believed.options.error),
         rejected: rejected as f64,
         odds: taken as f64 / rejected as f64,
-        least: chi_square_quantile(ANYWHERE, D) / gate(1.0, D) * line,
+        least: chi_square_quantile(THERE, D) / gate(1.0, D) * line,
     };
     let excess =
         (predicted.iter()).map(|own| (own.index, own.chi2 / limits.of::<D>(own))).collect();
@@ -160,12 +163,19 @@ impl Limits {
     /// More than the gate where chance allows it, and less where the prediction is so loose that an error
     /// of this size is likelier by chance.
     fn of<const D: usize>(&self, own: &Prediction) -> f64 {
-        let half = 0.5 * D as f64;
         let by_chance = CHANCE / self.rejected * self.volume / (ball(D) * own.spread);
-        let density = (TAU * self.scale).powf(half) * own.spread;
-        let even = 2.0 * self.scale * (self.odds / HARM * self.volume / density).ln();
         // Not `clamp`, which panics where a map is not finite.
-        let least = even.max(self.least).min(self.gate);
-        by_chance.powf(1.0 / half).max(least).min(TAILS * self.gate)
+        let least = if own.looseness < LOOSE {
+            self.gate
+        } else {
+            self.even::<D>(own).max(self.least).min(self.gate)
+        };
+        by_chance.powf(2.0 / D as f64).max(least).min(TAILS * self.gate)
+    }
+
+    /// Where an error does as much harm, in the mean, by being taken as by being left out.
+    fn even<const D: usize>(&self, own: &Prediction) -> f64 {
+        let density = (TAU * self.scale).powf(0.5 * D as f64) * own.spread;
+        2.0 * self.scale * (self.odds / HARM * self.volume / density).ln()
     }
 }
