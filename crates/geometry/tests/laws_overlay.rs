@@ -194,6 +194,35 @@ fn entries_and_exits_come_in_pairs() {
     assert_eq!(heard.iter().filter(|e| matches!(e, OverlayEvent::Merged { .. })).count(), 2);
 }
 
+/// Thinning moves the boundary by no more than the slack, and only where edges are alike.
+#[test]
+fn thinned_boundaries_stay_where_they_are() {
+    let mut draw = Draw::new(17);
+    for round in 0..60 {
+        let regions: Vec<Region<u32>> =
+            (0..5).map(|i| views::pair(&mut draw, round * 7 + 7 * i + 1).0).collect();
+        let region = union_all(&regions.iter().collect::<Vec<_>>()).unwrap().region;
+        let thinned = region.thinned(1e-3, |a, b| a.label == b.label);
+        assert!(thinned.edge_count() <= region.edge_count());
+        assert_eq!(thinned.rings.len(), region.rings.len());
+        for edge in region.edges() {
+            let ring = &thinned.rings[edge.ring];
+            let off_m = (0..ring.points.len())
+                .map(|i| {
+                    let to = &ring.points[ring.next(i)];
+                    point_segment_distance(&edge.from, &ring.points[i], to)
+                })
+                .fold(f64::INFINITY, f64::min);
+            assert!(off_m <= 1e-3, "round {round}: {off_m} m off");
+        }
+        assert_eq!(region.thinned(1e-3, |_, _| false), region);
+    }
+    let edge = RingEdge { label: EdgeLabel::Obstacle, data: 0_u32 };
+    let corners = [(0.0, 0.0), (1.0, 0.0), (2.0, 0.0), (3.0, 0.0), (3.0, 1.0), (0.0, 1.0)];
+    let bar = Region::from_ring(corners.map(|(x, y)| (Point2::new(x, y), edge)));
+    assert_eq!(bar.thinned(1e-9, |_, _| true).edge_count(), 4);
+}
+
 #[test]
 fn nothing_and_nonsense() {
     let nothing: Region<u32> = Region::default();

@@ -10,6 +10,7 @@ pub mod overlay;
 mod segments;
 mod shrink;
 mod star;
+mod triangulation;
 
 pub use boundary::{BoundaryEdge, BoundaryKind};
 pub use error::PlanarError;
@@ -21,3 +22,4 @@ pub use segments::{
     segments_meet,
 };
 pub use star::StarPolygon;
+pub use triangulation::{Triangle, Triangulation};

@@ -1,7 +1,7 @@
 //! Labelled regions: rings of edges, each with a label and data of the caller's.
 
 use crate::Point2;
-use crate::planar::StarPolygon;
+use crate::planar::{StarPolygon, point_segment_distance};
 use crate::predicates::orient;
 
 /// What is at an edge; greater ones win where edges coincide.
@@ -40,6 +40,35 @@ impl<T> Ring<T> {
         let Some(first) = self.points.first() else { return 0.0 };
         // From a corner of its own, so that nothing cancels far from the origin.
         self.points.windows(2).map(|pair| (pair[0] - first).perp(&(pair[1] - first))).sum()
+    }
+
+    /// See [`Region::thinned`].
+    fn thinned(&self, slack_m: f64, alike: &impl Fn(&RingEdge<T>, &RingEdge<T>) -> bool) -> Self
+    where
+        T: Copy,
+    {
+        let n = self.points.len();
+        let mut points: Vec<Point2> = Vec::with_capacity(n);
+        let mut edges: Vec<RingEdge<T>> = Vec::with_capacity(n);
+        // Corners left out since the last one kept, which the straight edge has to keep near to.
+        let mut left_out: Vec<Point2> = Vec::new();
+        for i in 0..n {
+            let (point, after) = (self.points[i], self.points[self.next(i)]);
+            if let (Some(from), Some(edge)) = (points.last(), edges.last())
+                && alike(edge, &self.edges[i])
+            {
+                left_out.push(point);
+                let ahead = (after - from).dot(&(point - from)) > 0.0;
+                let near = |p: &Point2| point_segment_distance(p, from, &after) <= slack_m;
+                if ahead && left_out.iter().all(near) {
+                    continue;
+                }
+            }
+            left_out.clear();
+            points.push(point);
+            edges.push(self.edges[i]);
+        }
+        if points.len() < 3 { self.clone() } else { Self { points, edges } }
     }
 
     /// Whether it bounds a hole.
@@ -182,6 +211,20 @@ impl<T: Copy> Region<T> {
             rings[ring].edges.push(changed);
         }
         Region { rings }
+    }
+
+    /// The region with fewer corners: one between two edges that `alike` holds for goes where the
+    /// boundary moves by at most `slack_m`. The edge that stays keeps what the first one carries.
+    ///
+    /// Unions of many views leave a corner on every wall for every ray that hit it. Rings with an
+    /// inside keep one; edges may come to cross others that are nearer than the slack. Linear.
+    pub fn thinned(
+        &self,
+        slack_m: f64,
+        alike: impl Fn(&RingEdge<T>, &RingEdge<T>) -> bool,
+    ) -> Self {
+        let rings = self.rings.iter().map(|ring| ring.thinned(slack_m, &alike)).collect();
+        Self { rings }
     }
 
     /// Memory held on the heap, bytes.

@@ -1,0 +1,163 @@
+//! Constrained Delaunay triangulation of a region (\[Mos15\] 3.6.4, 4.3.1).
+//!
+//! 1. Corners become points, edges become constraints. One that another forbids, because they cross
+//!    in an input that is no result of an overlay, is left out.
+//! 2. Triangles that hang together without crossing a constraint are one patch; a patch is inside if
+//!    the centre of its largest triangle is. So one test of membership decides for many triangles.
+//! 3. The triangles inside are numbered; each knows its neighbours over sides that are no constraint.
+//!
+//! The triangulation itself is the library `spade`'s, which decides exactly. Cost: O(n log n).
+
+use spade::handles::FixedFaceHandle;
+use spade::{ConstrainedDelaunayTriangulation, Point2 as SpadePoint, Triangulation as _};
+
+use super::PlanarError;
+use super::overlay::{REACH_M, Region};
+use super::segments::point_segment_distance;
+use crate::Point2;
+use crate::predicates::orient;
+
+/// A triangle of a region.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Triangle {
+    /// Its corners, counter-clockwise, as indices into the points.
+    pub corners: [u32; 3],
+    /// The triangle over the side that starts at each corner; `None` where the region ends.
+    pub neighbours: [Option<u32>; 3],
+}
+
+/// The inside of a region, cut into triangles along its edges.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Triangulation {
+    /// The points, in the frame of the region, metres.
+    pub points: Vec<Point2>,
+    /// The triangles inside.
+    pub triangles: Vec<Triangle>,
+}
+
+type Cdt = ConstrainedDelaunayTriangulation<SpadePoint<f64>>;
+
+impl Triangulation {
+    /// Triangulates the inside of a region; one without an inside has no triangle.
+    ///
+    /// # Errors
+    /// [`PlanarError::Unsnappable`] for a corner that is not finite, or too large or too small to
+    /// decide exactly.
+    pub fn of<T: Copy>(region: &Region<T>) -> Result<Self, PlanarError> {
+        let mut cdt = Cdt::new();
+        for ring in &region.rings {
+            let mut handles = Vec::with_capacity(ring.points.len());
+            for point in &ring.points {
+                let refused =
+                    |_| PlanarError::Unsnappable { x: point.x, y: point.y, reach_m: REACH_M };
+                handles.push(cdt.insert(SpadePoint::new(point.x, point.y)).map_err(refused)?);
+            }
+            for (i, &from) in handles.iter().enumerate() {
+                let to = handles[ring.next(i)];
+                if from != to && cdt.can_add_constraint(from, to) {
+                    cdt.add_constraint(from, to);
+                }
+            }
+        }
+        Ok(Self::inside(&cdt, region))
+    }
+
+    fn inside<T: Copy>(cdt: &Cdt, region: &Region<T>) -> Self {
+        let faces: Vec<FixedFaceHandle<spade::handles::InnerTag>> =
+            cdt.inner_faces().map(|face| face.fix()).collect();
+        let bound = faces.iter().map(|face| face.index() + 1).max().unwrap_or(0);
+        let mut number: Vec<Option<u32>> = vec![None; bound];
+        let mut visited = vec![false; bound];
+        let mut kept: Vec<FixedFaceHandle<spade::handles::InnerTag>> = Vec::new();
+        let mut patch = Vec::new();
+        for &first in &faces {
+            if std::mem::replace(&mut visited[first.index()], true) {
+                continue;
+            }
+            patch.clear();
+            patch.push(first);
+            let mut next = 0;
+            while let Some(&face) = patch.get(next) {
+                next += 1;
+                for edge in cdt.face(face).adjacent_edges() {
+                    if edge.is_constraint_edge() {
+                        continue;
+                    }
+                    let Some(over) = edge.rev().face().as_inner() else { continue };
+                    let over = over.fix();
+                    if !std::mem::replace(&mut visited[over.index()], true) {
+                        patch.push(over);
+                    }
+                }
+            }
+            let largest =
+                patch.iter().max_by(|a, b| cdt.face(**a).area().total_cmp(&cdt.face(**b).area()));
+            let Some(&largest) = largest else { continue };
+            let centre = cdt.face(largest).center();
+            if region.contains(&Point2::new(centre.x, centre.y)) {
+                for &face in &patch {
+                    number[face.index()] = Some(kept.len() as u32);
+                    kept.push(face);
+                }
+            }
+        }
+        let points = cdt.vertices().map(|v| Point2::new(v.position().x, v.position().y)).collect();
+        let triangles = kept
+            .iter()
+            .map(|&face| {
+                let face = cdt.face(face);
+                let edges = face.adjacent_edges();
+                Triangle {
+                    corners: edges.map(|edge| edge.from().fix().index() as u32),
+                    neighbours: edges.map(|edge| {
+                        let over = edge.rev().face().as_inner()?;
+                        if edge.is_constraint_edge() { None } else { number[over.fix().index()] }
+                    }),
+                }
+            })
+            .collect();
+        Self { points, triangles }
+    }
+
+    /// The corners of a triangle.
+    pub fn corners(&self, triangle: u32) -> [Point2; 3] {
+        self.triangles[triangle as usize].corners.map(|corner| self.points[corner as usize])
+    }
+
+    /// The centre of gravity of a triangle (\[Mos15\] 4.3.1).
+    pub fn centroid(&self, triangle: u32) -> Point2 {
+        let [a, b, c] = self.corners(triangle);
+        Point2::from((a.coords + b.coords + c.coords) / 3.0)
+    }
+
+    /// The area of all triangles, square metres.
+    pub fn area_m2(&self) -> f64 {
+        (0..self.triangles.len() as u32)
+            .map(|triangle| {
+                let [a, b, c] = self.corners(triangle);
+                0.5 * (b - a).perp(&(c - a))
+            })
+            .sum()
+    }
+
+    /// The triangle that holds a point, or the nearest one within `slack_m` of it. Cost: linear.
+    pub fn locate(&self, point: &Point2, slack_m: f64) -> Option<u32> {
+        let mut nearest: Option<(f64, u32)> = None;
+        for index in 0..self.triangles.len() as u32 {
+            let [a, b, c] = self.corners(index);
+            let inside = orient(&a, &b, point) >= 0.0
+                && orient(&b, &c, point) >= 0.0
+                && orient(&c, &a, point) >= 0.0;
+            if inside {
+                return Some(index);
+            }
+            let distance_m = point_segment_distance(point, &a, &b)
+                .min(point_segment_distance(point, &b, &c))
+                .min(point_segment_distance(point, &c, &a));
+            if distance_m <= slack_m && nearest.is_none_or(|(best_m, _)| distance_m < best_m) {
+                nearest = Some((distance_m, index));
+            }
+        }
+        nearest.map(|(_, index)| index)
+    }
+}
