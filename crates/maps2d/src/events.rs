@@ -2,7 +2,9 @@
 
 use probe::Probe;
 
+use crate::correction::CorrectionEvent;
 use crate::grid::GridEvent;
+use crate::polygons::PolygonEvent;
 use crate::relative::ConsolidationEvent;
 use crate::volume::VolumeEvent;
 
@@ -11,6 +13,8 @@ pub trait MapProbe:
     for<'a> Probe<VolumeEvent<'a>>
     + for<'a> Probe<ConsolidationEvent<'a>>
     + for<'a> Probe<GridEvent<'a>>
+    + for<'a> Probe<CorrectionEvent<'a>>
+    + for<'a> Probe<PolygonEvent<'a>>
 {
 }
 
@@ -18,6 +22,8 @@ impl<P> MapProbe for P where
     P: for<'a> Probe<VolumeEvent<'a>>
         + for<'a> Probe<ConsolidationEvent<'a>>
         + for<'a> Probe<GridEvent<'a>>
+        + for<'a> Probe<CorrectionEvent<'a>>
+        + for<'a> Probe<PolygonEvent<'a>>
         + ?Sized
 {
 }

@@ -172,6 +172,11 @@ pub trait ExplorationMap {
         probe: &mut dyn MapProbe,
     );
 
+    /// How often the map found itself broken, and kept a view out: 0 for maps that cannot be.
+    fn invalid(&self) -> u64 {
+        0
+    }
+
     /// Memory held, bytes.
     fn bytes(&self) -> usize;
 }

@@ -4,7 +4,9 @@ use std::collections::BTreeSet;
 
 use explore::{Ending, GiveUp, GraphEvent, PlannerEvent};
 use geometry::Point2;
+use maps2d::correction::CorrectionEvent;
 use maps2d::grid::GridEvent;
+use maps2d::polygons::PolygonEvent;
 use maps2d::relative::ConsolidationEvent;
 use maps2d::volume::VolumeEvent;
 use probe::Probe;
@@ -76,4 +78,12 @@ impl Probe<ConsolidationEvent<'_>> for Heard {
 
 impl Probe<GridEvent<'_>> for Heard {
     fn emit(&mut self, _event: GridEvent<'_>) {}
+}
+
+impl Probe<CorrectionEvent<'_>> for Heard {
+    fn emit(&mut self, _event: CorrectionEvent<'_>) {}
+}
+
+impl Probe<PolygonEvent<'_>> for Heard {
+    fn emit(&mut self, _event: PolygonEvent<'_>) {}
 }

@@ -1,6 +1,7 @@
 //! The grid and its answers to the map trait.
 
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use geometry::Point2;
 use pose::Se2;
@@ -9,6 +10,7 @@ use probe::{EdgeId, IdVec, VertexId};
 use sensing::Scan;
 
 use super::{Cell, Cells, GridEvent};
+use crate::correction::GivenPoses;
 use crate::volume::{LocalVolume, Samples, VolumeParams, build};
 use crate::{Candidate, Clearance, ExplorationMap, Frontier, MapProbe, Route, Standing, Vantage};
 
@@ -38,6 +40,8 @@ pub struct GridMap {
     pub(super) cells: Cells,
     /// Odometry estimate of every vertex, by vertex.
     pub(super) odom_from_vertex: IdVec<VertexId, Se2>,
+    /// Where vertices are, if that is given from outside.
+    pub(super) given: Option<Arc<dyn GivenPoses>>,
     /// Every scan with where it was taken, for rebuilding.
     pub(super) scans: Vec<(VertexId, Se2, Scan)>,
     /// Frontier cells that count, in order.
@@ -58,6 +62,7 @@ impl GridMap {
             params,
             cells: Cells::new(params.cell_m),
             odom_from_vertex: IdVec::new(),
+            given: None,
             scans: Vec::new(),
             frontier: BTreeSet::new(),
             ignored: BTreeSet::new(),
@@ -66,6 +71,11 @@ impl GridMap {
             view_at: None,
             search: search::Scratch::default(),
         }
+    }
+
+    /// A grid of nothing whose poses are given from outside: its frame is theirs.
+    pub fn with_poses(params: GridParams, given: Arc<dyn GivenPoses>) -> Self {
+        Self { given: Some(given), ..Self::new(params) }
     }
 
     /// The cells and what is believed of them.
@@ -90,6 +100,14 @@ impl GridMap {
             self.odom_from_vertex.push(Se2::identity());
         }
     }
+
+    /// Takes the pose of a vertex from outside, where it is given.
+    fn take_given(&mut self, vertex: VertexId) {
+        let given = self.given.as_ref().and_then(|given| given.map_from_vertex(vertex));
+        if let Some(map_from_vertex) = given {
+            self.odom_from_vertex[vertex] = map_from_vertex;
+        }
+    }
 }
 
 impl ExplorationMap for GridMap {
@@ -105,6 +123,7 @@ impl ExplorationMap for GridMap {
             if edge.kind == EdgeKind::Odometry {
                 self.odom_from_vertex[edge.b] = self.odom_from_vertex[edge.a] * edge.a_from_b;
             }
+            self.take_given(edge.b);
         }
     }
 
@@ -123,7 +142,10 @@ impl ExplorationMap for GridMap {
     }
 
     fn scanned(&mut self, standing: &Standing, scan: &Scan, probe: &mut dyn MapProbe) {
-        self.cover(standing.vertex);
+        if self.odom_from_vertex.next_id() <= standing.vertex {
+            self.cover(standing.vertex);
+            self.take_given(standing.vertex);
+        }
         self.scans.push((standing.vertex, standing.vertex_from_body, scan.clone()));
         if self.view_at != Some(standing.vertex) {
             self.view_samples = Samples::new();

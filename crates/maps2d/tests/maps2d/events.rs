@@ -4,7 +4,9 @@ use std::collections::BTreeSet;
 
 use geometry::Point2;
 use maps2d::ExplorationMap;
+use maps2d::correction::CorrectionEvent;
 use maps2d::grid::{GridEvent, GridMap, GridParams};
+use maps2d::polygons::PolygonEvent;
 use maps2d::relative::{ConsolidationEvent, RelativeMap, RelativeParams};
 use maps2d::volume::VolumeEvent;
 use pose::Se2;
@@ -78,6 +80,18 @@ impl From<ConsolidationEvent<'_>> for ClosedShare {
 
 impl From<VolumeEvent<'_>> for ClosedShare {
     fn from(_: VolumeEvent<'_>) -> Self {
+        Self(0.0)
+    }
+}
+
+impl From<CorrectionEvent<'_>> for ClosedShare {
+    fn from(_: CorrectionEvent<'_>) -> Self {
+        Self(0.0)
+    }
+}
+
+impl From<PolygonEvent<'_>> for ClosedShare {
+    fn from(_: PolygonEvent<'_>) -> Self {
         Self(0.0)
     }
 }

@@ -3,11 +3,14 @@
 
 mod asked;
 mod consolidation;
+mod corrected;
 mod drive;
 mod events;
 mod explain;
+mod extended;
 mod grid;
 mod oracle;
+mod polygons;
 mod retirement;
 mod room;
 mod told;

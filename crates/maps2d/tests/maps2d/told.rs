@@ -1,6 +1,8 @@
 //! A listener that writes down what the maps tell.
 
+use maps2d::correction::CorrectionEvent;
 use maps2d::grid::GridEvent;
+use maps2d::polygons::PolygonEvent;
 use maps2d::relative::ConsolidationEvent;
 use maps2d::volume::VolumeEvent;
 
@@ -57,6 +59,36 @@ impl From<GridEvent<'_>> for Told {
         let says = match &event {
             GridEvent::ScanApplied { changed, .. } => format!("{changed:?}"),
             GridEvent::Rebuilt { scans, .. } => format!("{scans} scans"),
+        };
+        Self { variant: event.variant(), says }
+    }
+}
+
+impl From<CorrectionEvent<'_>> for Told {
+    fn from(event: CorrectionEvent<'_>) -> Self {
+        let says = match &event {
+            CorrectionEvent::Corrected { new_places, factors, after, moved_max_m, .. } => {
+                let count = after.len();
+                format!("{new_places} {factors} {count} {moved_max_m:.6}")
+            }
+            CorrectionEvent::Refused { report } => format!("{:?}", report.termination),
+        };
+        Self { variant: event.variant(), says }
+    }
+}
+
+impl From<PolygonEvent<'_>> for Told {
+    fn from(event: PolygonEvent<'_>) -> Self {
+        let says = match &event {
+            PolygonEvent::United { vertex, region, .. } => {
+                format!("{vertex} {:.6} m2", region.area_m2())
+            }
+            PolygonEvent::Rebuilt { views, region } => {
+                format!("{views} {:.6} m2", region.area_m2())
+            }
+            PolygonEvent::Settled { standing, open, .. } => format!("{standing} {open:?}"),
+            PolygonEvent::WayPlanned { dual, way } => format!("{} {way:?}", dual.nodes.len()),
+            other => format!("{other:?}"),
         };
         Self { variant: event.variant(), says }
     }

@@ -1,0 +1,46 @@
+//! The active area: one global polygon, merged only where the robot has been lately
+//! (\[Zie18\] 2.5 to 2.7).
+//!
+//! The first form of the thesis, with its failures: they are why the later forms exist. Known space
+//! is bounded by rings: outer ones run counter-clockwise here, inner ones clockwise (the thesis has it
+//! the other way round; what is known lies to the left). Every corner is anchored to the vertex of
+//! the pose graph that it was seen from.
+//!
+//! 1. **Active area** (2.7.1, eq. 2.8, 2.9): the corners anchored to vertices at most `area_edges`
+//!    edges of the graph away from the robot (`area`).
+//! 2. **Doubly seen space** (2.7.5): rings that the new view may meet are searched for crossings of
+//!    their own active edges first, and split there (`untwist`). A part that runs the wrong way
+//!    round is *upended*: it is turned round, or removed, as [`Twisted`] says.
+//! 3. **Union** (2.6, 2.7.2): active edges are intersected with the view; where of an entry and its
+//!    exit only one was found, the ring is followed on, past the area, until the other is
+//!    (eq. 2.10, 2.11). At an entry the boundary goes over to the view, at an exit back
+//!    (eq. 2.6), and loops are collected (`unite`). Intersection points become corners or are left out
+//!    (2.7.4). Overlaps outside the area stay: two sheets over one place.
+//! 4. **Loop closure** (2.7.3): the pose graph is optimised at every place recognition
+//!    ([`crate::correction`]); every corner moves with its anchor (eq. 2.12); inner rings that were
+//!    twisted by it are split; active parts that now overlap are merged, which is the same split.
+//! 5. **Frontier** is what is labelled so on any ring; reachability is judged inside the area only
+//!    (2.9.2): goals in view, then ways on the dual graph of what the area's views saw
+//!    ([`crate::polygons`]); then back along the graph to the nearest vertex with frontier (2.9.3).
+//!
+//! **It fails** where the area is too small to hold both sides of an overlap, or so big that it merges
+//! both sides of a wall that drift has laid over each other (2.7.5). What can be noticed of that is
+//! noticed: entries without exits, loops that do not close, a robot outside its own map. The union
+//! is not made then, the map says [`PolygonEvent::Invalid`](crate::polygons::PolygonEvent), and
+//! counts it ([`ActiveArea::invalid`]).
+//!
+//! Where the thesis is silent: views are pulled in by the strictness margin and their corners moved by
+//! up to a tenth of a millimetre, fixed by vertex and corner, so that "point on a line" and "parallel"
+//! (2.6.4) do not happen but by chance; side tests are exact. Every walk is bounded by the number of
+//! corners, so it always ends.
+
+mod area;
+mod map;
+mod rings;
+mod unite;
+mod untwist;
+
+pub use map::{ActiveArea, ActiveAreaParams};
+pub use rings::Corner;
+pub use unite::Broken;
+pub use untwist::Twisted;
