@@ -28,18 +28,24 @@ pub enum Family {
     Grid,
     /// State, candidates, goal, way.
     Planner,
+    /// Optimisations of the whole graph: what they cost, how far vertices moved.
+    Correction,
+    /// Intersections, unions, loops, the region that comes out, the dual graph.
+    Polygons,
     /// True pose, view, coverage, and the plots.
     Truth,
 }
 
 impl Family {
     /// All families.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 8] = [
         Self::Sensing,
         Self::PoseGraph,
         Self::Consolidation,
         Self::Grid,
         Self::Planner,
+        Self::Correction,
+        Self::Polygons,
         Self::Truth,
     ];
 
@@ -51,6 +57,8 @@ impl Family {
             Self::Consolidation => "consolidation",
             Self::Grid => "grid",
             Self::Planner => "planner",
+            Self::Correction => "correction",
+            Self::Polygons => "polygons",
             Self::Truth => "truth",
         }
     }
@@ -103,7 +111,8 @@ pub struct MapOptions {
 impl MapOptions {
     /// A map by its kind: relative maps are drawn around the robot, all others from the start.
     pub fn of_kind(kind: &str) -> Self {
-        let centre = if kind == "relative" { Centre::Robot } else { Centre::Start };
+        let around_robot = ["relative", "extended"].contains(&kind);
+        let centre = if around_robot { Centre::Robot } else { Centre::Start };
         Self { name: kind.to_owned(), centre }
     }
 }

@@ -23,6 +23,10 @@ pub(crate) const ODOMETRY: Rgba = rgb(60, 110, 180);
 pub(crate) const PLACE: Rgba = rgb(220, 30, 120);
 pub(crate) const WITHDRAWN: Rgba = rgb(0, 0, 0);
 
+/// The pose graph before and after a correction.
+pub(crate) const BEFORE: Rgba = rgb(225, 180, 150);
+pub(crate) const CORRECTED: Rgba = rgb(20, 130, 110);
+
 pub(crate) const GOAL: Rgba = rgb(220, 20, 40);
 pub(crate) const ROUTE: Rgba = rgb(230, 60, 60);
 pub(crate) const BEST: Rgba = rgb(20, 140, 60);

@@ -7,7 +7,10 @@ use std::collections::BTreeSet;
 use explore::{GraphEvent, PlannerEvent};
 use geometry::Point2;
 use instrument::{Level, Recorder, Recording, declared_events, inspect};
-use maps2d::grid::{GridMap, GridParams};
+use maps2d::active::Broken;
+use maps2d::correction::{CorrectionEvent, CorrectionParams};
+use maps2d::grid::{CorrectedGrid, GridMap, GridParams};
+use maps2d::polygons::PolygonEvent;
 use maps2d::relative::{RelativeMap, RelativeParams};
 use maps2d::{ExplorationMap, Route, Standing};
 use pose::Se2;
@@ -55,6 +58,10 @@ fn withdraw_a_place(recorder: &mut Recorder) {
     let mut grid = GridMap::new(GridParams::default());
     grid.scanned(&at(0, 0.0), &scan(), recorder);
     grid.poses_reestimated(&[Se2::new(0.5, 0.0, 0.1)], recorder);
+    correct_a_grid(recorder);
+    recorder.emit(PolygonEvent::Invalid { vertex: VertexId(0), why: Broken::Unpaired });
+    recorder.emit(PolygonEvent::Followed { vertex: VertexId(0), found: 1 });
+    recorder.emit(PolygonEvent::Untwisted { at: &[Point2::origin()], flipped: 1, removed: 0 });
     let standing = at(0, 0.0);
     let goal_in_body = Point2::new(1.0, 0.0);
     let why = explore::GiveUp::Blocked;
@@ -63,16 +70,32 @@ fn withdraw_a_place(recorder: &mut Recorder) {
     recorder.emit(PlannerEvent::RoutePlanned { standing, route: &route, length_m: 2.0 });
 }
 
+/// A correction that is taken, and one that cannot be.
+fn correct_a_grid(recorder: &mut Recorder) {
+    let mut graph = PoseGraph::new();
+    let (a, b) = (graph.add_vertex(), graph.add_vertex());
+    let mut map = CorrectedGrid::new(GridParams::default(), CorrectionParams::default());
+    let kinds = [(EdgeKind::Odometry, 1.0), (EdgeKind::Place, 1.2)];
+    let edges = kinds
+        .map(|(kind, x_m)| graph.add_edge(a, b, Se2::new(x_m, 0.0, 0.0), kind).expect("an edge"));
+    map.edges_added(&graph, &edges, recorder);
+    map.scanned(&at(1, 0.0), &scan(), recorder);
+    let no_graph = posegraph::FactorGraph2::default();
+    let options = posegraph::Options::default();
+    let report = posegraph::optimize(&no_graph, &[], &options).report;
+    recorder.emit(CorrectionEvent::Refused { report: &report });
+}
+
 #[test]
 fn every_declared_variant_is_in_a_full_recording() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("run.rrd");
     let world = worlds::paper::maze();
-    let maps = ["relative", "grid", "script"];
+    let maps = ["relative", "grid", "corrected_polygons", "active_area", "extended", "script"];
     let options = support::options(&path, Level::Full, &maps, &world);
     let recording = Recording::create(options).expect("a new file");
     let world = std::sync::Arc::new(world);
-    for kind in ["relative", "grid"] {
+    for kind in &maps[..5] {
         let mut recorder = recording.recorder(kind);
         support::explore(&mut recorder, kind, &world, 450);
     }
@@ -95,12 +118,13 @@ fn every_declared_variant_is_in_a_full_recording() {
     assert_eq!(recorded.difference(&declared).count(), 0);
 
     // `event` counts every event of a map once, and no two rows of text share a number.
-    for (map, count) in [("/relative", 0), ("/grid", 0), ("/script", 0)] {
+    for (map, count) in [("/relative", 0), ("/grid", 0), ("/corrected_polygons", 0), ("/script", 0)]
+    {
         let of_map: u64 = found.events.iter().filter(|e| e.map == map).map(|e| e.count).sum();
         assert!(of_map > count, "{map}");
     }
     let last = found.timelines.iter().find(|t| t.name == "event").map(|t| t.last);
-    let most = ["/relative", "/grid", "/script"]
+    let most = ["/relative", "/grid", "/corrected_polygons", "/script"]
         .map(|map| found.events.iter().filter(|e| e.map == map).map(|e| e.count).sum::<u64>());
     assert_eq!(last, most.iter().max().map(|&count| count as i64));
 }

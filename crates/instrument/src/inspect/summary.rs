@@ -4,7 +4,9 @@ use std::collections::{BTreeMap, BTreeSet};
 use std::path::{Path, PathBuf};
 
 use explore::{GraphEvent, PlannerEvent};
+use maps2d::correction::CorrectionEvent;
 use maps2d::grid::GridEvent;
+use maps2d::polygons::PolygonEvent;
 use maps2d::relative::ConsolidationEvent;
 use maps2d::volume::VolumeEvent;
 use rerun::log::Chunk;
@@ -16,13 +18,15 @@ use crate::recording::METRICS;
 use crate::{Family, InstrumentError};
 
 /// The event families with the names of all variants that their algorithms declare.
-pub fn declared_events() -> [(Family, &'static [&'static str]); 5] {
+pub fn declared_events() -> [(Family, &'static [&'static str]); 7] {
     [
         (Family::Sensing, VolumeEvent::VARIANTS),
         (Family::PoseGraph, GraphEvent::VARIANTS),
         (Family::Consolidation, ConsolidationEvent::VARIANTS),
         (Family::Grid, GridEvent::VARIANTS),
         (Family::Planner, PlannerEvent::VARIANTS),
+        (Family::Correction, CorrectionEvent::VARIANTS),
+        (Family::Polygons, PolygonEvent::VARIANTS),
     ]
 }
 

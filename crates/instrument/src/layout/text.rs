@@ -53,6 +53,7 @@ pub(crate) fn about(options: &RecordingOptions) -> String {
         ("red dot, red line", "the goal; the way to it"),
         ("green to yellow dots", "candidates, from the best to the worst; grey: refused"),
         ("magenta line", "place edge of the pose graph (true view, where it outlines one)"),
+        ("teal line", "the trajectory after the last correction; pale: before it"),
         ("blue line", "path: true where it lies in the truth, odometry in the pose graph"),
     ] {
         page.push_str(&format!("| {colour} | {what} |\n"));

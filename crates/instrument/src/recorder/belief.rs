@@ -18,11 +18,11 @@ const BITS_M: f64 = 0.05;
 
 /// Rows of `belief/..`.
 pub(super) struct Belief {
-    obstacle: Lines,
-    frontier: Lines,
-    ignored: Lines,
-    free: Lines,
-    wall: Lines,
+    pub(super) obstacle: Lines,
+    pub(super) frontier: Lines,
+    pub(super) ignored: Lines,
+    pub(super) free: Lines,
+    pub(super) wall: Lines,
     unreachable: Lines,
     posts: Points,
     scope: Lines,
@@ -30,9 +30,9 @@ pub(super) struct Belief {
     robot: Lines,
     frame: Poses,
     eye: Option<Poses>,
-    cells: Option<Tiles>,
+    pub(super) cells: Option<Tiles>,
     frontier_cells: Points,
-    cells_path: String,
+    pub(super) cells_path: String,
     fresh_cells: Vec<(i64, i64)>,
     cells_now: Vec<(i64, i64)>,
     /// Volumes in the last scope, for the plots.
@@ -91,7 +91,7 @@ impl Belief {
         self.posts.end_row(now);
     }
 
-    fn edge_lines(&mut self) -> [&mut Lines; 6] {
+    pub(super) fn edge_lines(&mut self) -> [&mut Lines; 6] {
         [
             &mut self.free,
             &mut self.wall,

@@ -7,7 +7,7 @@ use crate::{Family, InstrumentError, columns};
 
 /// Rows of `events/<family>` and of `belief/event`, which draws the event at hand.
 pub(super) struct Happened {
-    texts: [EventTexts; 5],
+    texts: [EventTexts; 7],
     pub lines: Lines,
     pub points: Points,
 }
@@ -24,6 +24,8 @@ impl Happened {
                 text(Family::Consolidation, columns::rgb(255, 170, 80)),
                 text(Family::Grid, columns::rgb(150, 220, 150)),
                 text(Family::Planner, columns::rgb(230, 230, 120)),
+                text(Family::Correction, columns::rgb(200, 150, 255)),
+                text(Family::Polygons, columns::rgb(120, 220, 210)),
             ],
             lines: Lines::new(format!("{name}/belief/event/lines"), -2.4, 50.0),
             points: Points::new(format!("{name}/belief/event/points"), -4.0, 51.0),

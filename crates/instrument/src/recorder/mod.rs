@@ -2,12 +2,14 @@
 
 mod belief;
 mod consolidation;
+mod correction;
 mod explore;
 mod graph;
 mod grid;
 mod happened;
 mod places;
 mod planner;
+mod polygons;
 mod sensing;
 mod steps;
 mod truth;

@@ -13,6 +13,8 @@ use probe::{Id, VertexId};
 #[derive(Debug, Default)]
 pub(super) struct Places {
     odometry: Vec<Se2>,
+    /// Where vertices are since the last correction, for maps that have any.
+    corrected: Vec<Se2>,
     /// The scope that placed a vertex last, and where.
     placed: Vec<(u32, Se2)>,
     round: u32,
@@ -24,7 +26,21 @@ impl Places {
         if self.odometry.len() <= vertex.index() {
             self.odometry.resize(vertex.index() + 1, Se2::identity());
         }
+        // A new vertex lies to the one before it as the wheels said, wherever that one is now.
+        if let (Some(last), Some(before)) = (
+            self.corrected.last().copied(),
+            vertex.index().checked_sub(1).and_then(|i| self.odometry.get(i)).copied(),
+        ) && self.corrected.len() == vertex.index()
+        {
+            self.corrected.push(last * before.inverse_mul(&odom_from_vertex));
+        }
         self.odometry[vertex.index()] = odom_from_vertex;
+    }
+
+    /// Takes corrected poses.
+    pub fn correct(&mut self, map_from_vertex: &[Se2]) {
+        self.corrected.clear();
+        self.corrected.extend_from_slice(map_from_vertex);
     }
 
     /// A vertex by odometry alone.
@@ -46,11 +62,11 @@ impl Places {
         }
     }
 
-    /// A vertex where the last scope laid it, else by odometry.
+    /// A vertex where the last scope laid it, else where it was corrected to, else by odometry.
     pub fn of(&self, vertex: VertexId) -> Se2 {
         match self.placed.get(vertex.index()) {
             Some((round, place)) if *round == self.round => *place,
-            _ => self.by_odometry(vertex),
+            _ => self.corrected.get(vertex.index()).copied().unwrap_or(self.by_odometry(vertex)),
         }
     }
 

@@ -11,6 +11,7 @@ use rerun::RecordingStream;
 use worlds::World2d;
 
 use super::belief::Belief;
+use super::correction::Corrected;
 use super::graph::Graph;
 use super::happened::Happened;
 use super::places::Places;
@@ -69,6 +70,7 @@ pub(super) struct Inner {
     world_from_start: Se2,
     pub belief: Belief,
     pub graph: Graph,
+    pub corrected: Corrected,
     pub planner: Planner,
     pub happened: Happened,
     truth: Truth,
@@ -99,6 +101,7 @@ impl Recorder {
             inner: Some(Box::new(Inner {
                 belief: Belief::new(name, map.centre == Centre::Robot),
                 graph: Graph::new(name),
+                corrected: Corrected::new(name),
                 planner: Planner::new(name),
                 happened: Happened::new(name),
                 truth: Truth::new(name),
@@ -230,8 +233,10 @@ impl Inner {
         let by_odometry = self.places.by_odometry(self.standing.vertex);
         if self.takes(Family::PoseGraph) {
             self.graph.end_step(&(by_odometry * self.standing.vertex_from_body), &now);
+            self.corrected.end_step(&now);
         } else {
             self.graph.skip_step();
+            self.corrected.skip_step();
         }
         if self.takes(Family::Planner) {
             self.planner.end_step(&now);
@@ -248,6 +253,10 @@ impl Inner {
             self.plot("distance_m", end.distance_m);
             self.plot("volumes_in_scope", self.belief.volumes_in_scope as f64);
             self.plot("place_edges", self.graph.place_edges as f64);
+            if let Some(last) = self.corrected.take_plots() {
+                self.plot("correction_iterations", last.iterations as f64);
+                self.plot("correction_moved_m", last.moved_max_m);
+            }
             if let Some(witness) = end.witness {
                 self.plot("bumps", witness.tally().bumps as f64);
                 self.plot("collisions", witness.tally().collisions as f64);
@@ -277,6 +286,7 @@ impl Inner {
     fn held_bytes(&self) -> usize {
         self.belief.held_bytes()
             + self.graph.held_bytes()
+            + self.corrected.held_bytes()
             + self.happened.held_bytes()
             + self.truth.held_bytes()
     }
@@ -287,6 +297,7 @@ impl Inner {
         self.truth.send(&self.stream)?;
         self.belief.send(&self.stream)?;
         self.graph.send(&self.stream)?;
+        self.corrected.send(&self.stream)?;
         self.planner.send(&self.stream)?;
         self.happened.send(&self.stream)?;
         self.numbers.values_mut().try_for_each(|numbers| numbers.send(&self.stream))

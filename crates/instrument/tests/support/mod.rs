@@ -9,7 +9,10 @@ use std::time::{Duration, Instant};
 use explore::{ExploreParams, Explorer, StepReport};
 use instrument::{Every, Level, MapOptions, Recorder, Recording, RecordingOptions, StepEnd};
 use maps2d::ExplorationMap;
+use maps2d::active::{ActiveArea, ActiveAreaParams};
+use maps2d::extended::{ExtendedMap, ExtendedParams};
 use maps2d::grid::{GridMap, GridParams};
+use maps2d::polygons::{CorrectedPolygons, CorrectedPolygonsParams};
 use maps2d::relative::{RelativeMap, RelativeParams};
 use metrics::{Coverage, CoverageParams, Witness};
 use worlds::{RobotParams, SimRobot, World2d};
@@ -17,6 +20,11 @@ use worlds::{RobotParams, SimRobot, World2d};
 pub fn map(kind: &str) -> Box<dyn ExplorationMap + Send> {
     match kind {
         "grid" => Box::new(GridMap::new(GridParams::default())),
+        "active_area" => Box::new(ActiveArea::new(ActiveAreaParams::default())),
+        "extended" => Box::new(ExtendedMap::new(ExtendedParams::default())),
+        "corrected_polygons" => {
+            Box::new(CorrectedPolygons::new(CorrectedPolygonsParams::default()))
+        }
         _ => Box::new(RelativeMap::new(RelativeParams::default())),
     }
 }
