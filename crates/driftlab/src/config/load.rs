@@ -68,7 +68,6 @@ impl Loaded {
         let mut document = parsed.into_inner();
         this_schema(&document, &sources)?;
         one_variant_each(&document, &sources)?;
-        not_yet(&document, &sources)?;
 
         let world_text = overrides.world.as_ref().map(|(file, kind)| world_text(file, kind));
         if let (Some((file, kind)), Some(world_text)) = (&overrides.world, &world_text) {
@@ -98,7 +97,6 @@ impl Loaded {
             }
             let over = moved(parsed.into_inner(), base);
             one_variant_each(&over, &sources)?;
-            not_yet(&over, &sources)?;
             notes.extend(replaced_variants(&document, &over, set));
             drop_alternatives(&mut document, &over);
             lay_over(&mut document, over);
@@ -329,23 +327,6 @@ pub(super) fn properties_of(name: &str) -> Vec<String> {
     let node = property_at(name).map(|property| property.node);
     let all = node.map(properties).unwrap_or_default();
     all.into_iter().map(|property| join(name, property.key)).collect()
-}
-
-/// Tables that a config of this layout may hold one day, and what to do meanwhile.
-const NOT_YET: [(&str, &str, &str); 1] =
-    [("map", "grid_corrected", "relative or grid: this version does not correct a grid yet")];
-
-fn not_yet(document: &DeTable<'_>, sources: &Sources) -> Result<(), ConfigError> {
-    for (parent, name, expected) in NOT_YET {
-        let table = if parent.is_empty() { Some(document) } else { table_at(document, parent) };
-        let Some((key, _)) = table.and_then(|table| table.get_key_value(name)) else { continue };
-        return Err(ConfigError::Value {
-            place: sources.place(key.span()),
-            found: format!("`{}`", join(parent, name)),
-            expected: expected.into(),
-        });
-    }
-    Ok(())
 }
 
 /// A word that somebody forgot to quote: `--set record.level=off`.

@@ -45,7 +45,10 @@ pub use experiment::{Config, Start};
 pub use generators::{CavesWorld, CorridorWorld, MazeWorld, Pillar, PillarsWorld, RoomsWorld};
 pub use graph_sweep::{GraphSweep, OutlierSweep, Sweep, SyntheticGraph, is_graph_sweep};
 pub use load::{Loaded, Overrides};
-pub use maps::{GridMap, Maps, Occlusion, RelativeMap};
+pub use maps::{
+    ActiveAreaMap, CorrectedPolygonsMap, ExtendedMap, GridCorrectedMap, GridMap, Maps, Occlusion,
+    Poses, RelativeMap, Twisted,
+};
 pub use planner::{Planner, RapidPlanner, SurveyPlanner};
 pub use report::{Compare, Every, Level, Metrics, Record, Rule};
 pub use robot::{Odometry, Places, Robot, Sensor};

@@ -109,6 +109,12 @@ pub struct Every {
     /// State, candidates, goal, path.
     #[schemars(range(min = 1))]
     pub planner: u32,
+    /// Optimisations of the whole graph.
+    #[schemars(range(min = 1))]
+    pub correction: u32,
+    /// Unions of polygons, and what comes out.
+    #[schemars(range(min = 1))]
+    pub polygons: u32,
     /// True pose, coverage cells and the plots.
     #[schemars(range(min = 1))]
     pub truth: u32,
@@ -116,6 +122,15 @@ pub struct Every {
 
 impl Default for Every {
     fn default() -> Self {
-        Self { sensing: 1, pose_graph: 1, consolidation: 1, grid: 1, planner: 1, truth: 1 }
+        Self {
+            sensing: 1,
+            pose_graph: 1,
+            consolidation: 1,
+            grid: 1,
+            planner: 1,
+            correction: 1,
+            polygons: 1,
+            truth: 1,
+        }
     }
 }

@@ -8,9 +8,10 @@ use toml::Value;
 use super::document::join;
 use super::schema::{Property, is_variant_table, properties, property_at, resolved, schema, words};
 use super::{
-    CavesWorld, Config, CorridorWorld, GridMap, ImageWorld, Loaded, MapServerWorld, MazeWorld,
-    MovingAiWorld, Origin, PaperWorld, PillarsWorld, PolygonsWorld, RapidPlanner, RelativeMap,
-    RoomsWorld, RunSweep, Start, SurveyPlanner, ThesisWorld,
+    ActiveAreaMap, CavesWorld, Config, CorrectedPolygonsMap, CorridorWorld, ExtendedMap,
+    GridCorrectedMap, GridMap, ImageWorld, Loaded, MapServerWorld, MazeWorld, MovingAiWorld,
+    Origin, PaperWorld, PillarsWorld, PolygonsWorld, RapidPlanner, RelativeMap, RoomsWorld, RunSweep, Start,
+    SurveyPlanner, ThesisWorld,
 };
 
 /// The resolved config as TOML, each value with its origin as a comment.
@@ -165,6 +166,10 @@ fn optional_tables() -> Vec<(&'static str, bool, toml::Table)> {
         ("world.caves", false, table_of(&CavesWorld::default())),
         ("map.relative", true, table_of(&RelativeMap::default())),
         ("map.grid", false, table_of(&GridMap::default())),
+        ("map.grid_corrected", false, table_of(&GridCorrectedMap::default())),
+        ("map.corrected_polygons", false, table_of(&CorrectedPolygonsMap::default())),
+        ("map.active_area", false, table_of(&ActiveAreaMap::default())),
+        ("map.extended", false, table_of(&ExtendedMap::default())),
         ("planner.rapid", true, table_of(&RapidPlanner::default())),
         ("planner.survey", false, table_of(&SurveyPlanner::default())),
         (

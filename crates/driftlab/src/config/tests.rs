@@ -148,7 +148,6 @@ fn each_mistake_gets_one_message_at_its_place() {
     let (range, nan) =
         (with("[sensor]\nrays = 1\nfov_deg = 400\n"), with("[odometry]\nscale = nan\n"));
     let two = with("[world.maze]\ncolumns = 3\n");
-    let corrected = with("[map.grid_corrected]\n");
     let no_seeds = with("[sweep]\nseeds = 0\n");
     let no_list = with("[sweep.axes]\nodometry.scale = 1\n");
     let seed_axis = with("[sweep.axes]\nseed = [1, 2]\n");
@@ -180,7 +179,6 @@ fn each_mistake_gets_one_message_at_its_place() {
         (&no_list, &[]),
         (&no_value, &[]),
         (&seed_axis, &[]),
-        (&corrected, &[]),
         (&drive, &[]),
         (&both, &[]),
         ("[metrics]\ngrid = [25, 20, 1]\n", &[]),

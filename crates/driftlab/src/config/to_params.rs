@@ -1,7 +1,11 @@
 //! The tables of a config as the algorithms want them: plain parameters, radians.
 
 use explore::{ExploreParams, Policy};
+use maps2d::active::ActiveAreaParams;
+use maps2d::correction::CorrectionParams;
+use maps2d::extended::ExtendedParams;
 use maps2d::grid::GridParams;
+use maps2d::polygons::{CorrectedPolygonsParams, OpenParams};
 use maps2d::relative::{Certainty, RelativeParams};
 use maps2d::volume::{OcclusionRule, Options, VolumeParams};
 use metrics::{CellShape, CoverageParams};
@@ -12,7 +16,7 @@ use worlds::{DriveParams, OdometryParams, PlaceParams, RobotParams, SensorParams
 
 use super::{
     CavesWorld, Config, CorridorWorld, GridMap, MazeWorld, Metrics, Occlusion, Odometry, Pillar,
-    PillarsWorld, Places, Planner, Robot, RoomsWorld, Rule, Sensor,
+    PillarsWorld, Places, Planner, Robot, RoomsWorld, Rule, Sensor, Twisted,
 };
 
 impl From<&Config> for RobotParams {
@@ -136,6 +140,75 @@ impl From<&GridMap> for GridParams {
     }
 }
 
+impl Config {
+    /// The parameters of the corrected grid, if it is built: the grid's, and the optimiser's.
+    pub fn grid_corrected_params(&self) -> Option<(GridParams, CorrectionParams)> {
+        let map = self.map.grid_corrected.as_ref()?;
+        let volume =
+            VolumeParams { occlusion_gap_m: map.occlusion_gap_m, ..VolumeParams::default() };
+        let grid = GridParams { cell_m: map.cell_m, cell_margin: map.cell_margin, volume };
+        Some((grid, self.correction_params(map.place_sigma_m, map.place_sigma_deg)))
+    }
+
+    /// The parameters of the united polygons, if they are built.
+    pub fn corrected_polygons_params(&self) -> Option<CorrectedPolygonsParams> {
+        let map = self.map.corrected_polygons.as_ref()?;
+        Some(CorrectedPolygonsParams {
+            volume: VolumeParams {
+                occlusion_gap_m: map.occlusion_gap_m,
+                ..VolumeParams::default()
+            },
+            open: OpenParams { wall_closing_m: map.wall_closing_m, sliver_m: map.sliver_m },
+            correction: self.correction_params(map.place_sigma_m, map.place_sigma_deg),
+        })
+    }
+
+    /// The parameters of the active area, if it is built.
+    pub fn active_area_params(&self) -> Option<ActiveAreaParams> {
+        let map = self.map.active_area.as_ref()?;
+        Some(ActiveAreaParams {
+            volume: VolumeParams {
+                occlusion_gap_m: map.occlusion_gap_m,
+                strict_margin_m: map.strict_margin_m,
+                ..VolumeParams::default()
+            },
+            open: OpenParams { wall_closing_m: map.wall_closing_m, sliver_m: map.sliver_m },
+            correction: self.correction_params(map.place_sigma_m, map.place_sigma_deg),
+            area_edges: map.area_edges as usize,
+            keep_intersections: map.keep_intersections,
+            twisted: match map.twisted {
+                Twisted::Flip => maps2d::active::Twisted::Flip,
+                Twisted::Remove => maps2d::active::Twisted::Remove,
+            },
+        })
+    }
+
+    /// The parameters of the extended polygon, if it is built.
+    pub fn extended_params(&self) -> Option<ExtendedParams> {
+        let map = self.map.extended.as_ref()?;
+        let occlusion = match map.occlusion {
+            Occlusion::Range => OcclusionRule::Range,
+            Occlusion::ForwardSigned => OcclusionRule::ForwardSigned,
+        };
+        let insert_occlusion_vertex = map.insert_occlusion_vertex;
+        let options = Options { occlusion, insert_occlusion_vertex, thin_m: map.thin_m };
+        let (occlusion_gap_m, strict_margin_m) = (map.occlusion_gap_m, map.strict_margin_m);
+        Some(ExtendedParams { volume: VolumeParams { occlusion_gap_m, strict_margin_m, options } })
+    }
+
+    /// What an optimiser is told of the noise: that of the wheels as the data sheet has it, without
+    /// the experiment's scale.
+    fn correction_params(&self, place_sigma_m: f64, place_sigma_deg: f64) -> CorrectionParams {
+        CorrectionParams {
+            sigma_translation: self.odometry.sigma_translation,
+            sigma_rotation_rad: self.odometry.sigma_rotation.to_radians(),
+            place_sigma_m,
+            place_sigma_rotation_rad: place_sigma_deg.to_radians(),
+            ..CorrectionParams::default()
+        }
+    }
+}
+
 impl From<&Config> for ExploreParams {
     fn from(config: &Config) -> Self {
         let policy = match &config.planner {
@@ -219,7 +292,9 @@ impl From<&CavesWorld> for CavesParams {
 
 #[cfg(test)]
 mod tests {
-    use super::super::RelativeMap;
+    use super::super::{
+        ActiveAreaMap, CorrectedPolygonsMap, ExtendedMap, GridCorrectedMap, RelativeMap,
+    };
     use super::*;
 
     #[test]
@@ -228,6 +303,17 @@ mod tests {
         assert_eq!(CoverageParams::from(&Metrics::default()), CoverageParams::default());
         assert_eq!(with_relative(0.0).relative_params(), Some(RelativeParams::default()));
         assert_eq!(GridParams::from(&GridMap::default()), GridParams::default());
+        let mut config = Config::default();
+        config.map.grid_corrected = Some(GridCorrectedMap::default());
+        let defaults = (GridParams::default(), CorrectionParams::default());
+        assert_eq!(config.grid_corrected_params(), Some(defaults));
+        config.map.corrected_polygons = Some(CorrectedPolygonsMap::default());
+        let defaults = CorrectedPolygonsParams::default();
+        assert_eq!(config.corrected_polygons_params(), Some(defaults));
+        config.map.active_area = Some(ActiveAreaMap::default());
+        assert_eq!(config.active_area_params(), Some(ActiveAreaParams::default()));
+        config.map.extended = Some(ExtendedMap::default());
+        assert_eq!(config.extended_params(), Some(ExtendedParams::default()));
         assert_eq!(ExploreParams::from(&Config::default()), ExploreParams::default());
         assert_eq!(CorridorParams::from(&CorridorWorld::default()), CorridorParams::default());
         assert_eq!(RoomsParams::from(&RoomsWorld::default()), RoomsParams::default());

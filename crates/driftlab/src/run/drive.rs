@@ -5,12 +5,11 @@ use std::time::{Duration, Instant};
 
 use explore::{Ending, ExploreParams, Explorer, State, StepReport};
 use maps2d::ExplorationMap;
-use maps2d::grid::GridMap;
-use maps2d::relative::RelativeMap;
 use metrics::{Coverage, Witness};
 use posegraph::EdgeKind;
 use worlds::{RobotParams, SimRobot, World2d};
 
+use super::sides::{AtWork, Side, Telling, TruePoses, map_of};
 use super::timed::{TimedProbe, TimedRobot};
 use super::{MapMetrics, MapTiming, StepRow, StepSeen, Watch, quantile};
 use crate::config::Config;
@@ -48,34 +47,40 @@ pub fn drive<W: Watch>(
     let started = Instant::now();
     let robot = SimRobot::new(Arc::clone(world), RobotParams::from(config), config.seed);
     let mut witness = Witness::new(robot, coverage.clone());
-    let maps = kinds.iter().filter_map(|kind| map_of(config, kind)).collect();
-    let mut explorer = Explorer::new(maps, ExploreParams::from(config));
+    let truth = TruePoses::default();
+    let built = kinds.iter().filter_map(|kind| map_of(config, kind, &truth));
+    let at_work = AtWork::new(kinds.len());
+    let maps = built.enumerate().map(|(index, map)| -> Box<dyn ExplorationMap + Send> {
+        Box::new(Side::new(map, index, &at_work))
+    });
+    let mut explorer = Explorer::new(maps.collect(), ExploreParams::from(config));
     let mut riders: Vec<Rider> = kinds.iter().map(|&kind| Rider::new(kind)).collect();
-    let mut costs = Costs::default();
+    let mut costs = Costs::new(riders.len());
 
+    watch.maps(&at_work);
     watch.place(world, coverage)?;
     let mut step = 0;
     let report = loop {
         let before_m = witness.tally().distance_m;
         watch.step_begins(step, before_m, before_m);
-        let (report, mut cost) = timed_step(&mut explorer, &mut witness, watch);
+        let mut robot = Telling { witness: &mut witness, truth: &truth };
+        let (report, mut cost) = timed_step(&mut explorer, &mut robot, watch, &at_work);
         let newly_seen = witness.take_newly_seen();
         for (rider, map) in riders.iter_mut().zip(explorer.maps()) {
             rider.step(step, &explorer, &report, map.as_ref(), &witness);
         }
-        if let Some(row) = riders.first().and_then(|rider| rider.rows.last()) {
-            let end = StepSeen {
-                explorer: &explorer,
-                report: &report,
-                witness: &witness,
-                newly_seen: &newly_seen,
-                row,
-            };
-            let start = Instant::now();
-            watch.step_ends(&end)?;
-            cost.watching += start.elapsed();
-            on_step(row);
-        }
+        let rows: Vec<&StepRow> = riders.iter().filter_map(|rider| rider.rows.last()).collect();
+        let end = StepSeen {
+            explorer: &explorer,
+            report: &report,
+            witness: &witness,
+            newly_seen: &newly_seen,
+            rows: &rows,
+        };
+        let start = Instant::now();
+        watch.step_ends(&end)?;
+        cost.watching += start.elapsed();
+        rows.first().copied().into_iter().for_each(&mut *on_step);
         costs.add(&cost);
         step += 1;
         if report.ending.is_some() {
@@ -91,60 +96,67 @@ pub fn drive<W: Watch>(
         runs.push(MapRun {
             name: rider.name,
             metrics: rider.metrics(steers, &explorer, &report, map.as_ref(), &witness),
-            timing: costs.timing(rider.bytes_peak, wall_secs),
+            timing: costs.timing(index, rider.bytes_peak, wall_secs),
             rows: rider.rows,
         });
     }
     Ok(runs)
 }
 
-fn map_of(config: &Config, kind: &str) -> Option<Box<dyn ExplorationMap + Send>> {
-    match kind {
-        "relative" => Some(Box::new(RelativeMap::new(config.relative_params()?))),
-        "grid" => Some(Box::new(GridMap::new(config.map.grid.as_ref()?.into()))),
-        _ => None,
-    }
-}
-
 /// One step, and what it cost.
 fn timed_step<W: Watch>(
     explorer: &mut Explorer,
-    witness: &mut Witness,
+    robot: &mut dyn sensing::Robot,
     watch: &mut W,
+    at_work: &AtWork,
 ) -> (StepReport, Cost) {
-    let mut robot = TimedRobot::new(witness);
-    let mut probe = TimedProbe::new(watch);
+    let count = explorer.maps().len();
+    let mut robot = TimedRobot::new(robot);
+    let mut probe = TimedProbe::new(watch, at_work, count);
     let start = Instant::now();
     let report = explorer.step(&mut robot, &mut probe);
     let (simulating, watching) = (robot.spent, probe.spent);
-    (report, Cost { own: start.elapsed().saturating_sub(simulating + watching), watching })
+    let whole = start.elapsed().saturating_sub(simulating + watching);
+    let mut own: Vec<Duration> =
+        (0..count).map(|map| at_work.take(map).saturating_sub(probe.spent_on[map])).collect();
+    // What is nobody's is the policy's, which the first map keeps busy.
+    let of_others: Duration = own.iter().skip(1).sum();
+    if let Some(first) = own.first_mut() {
+        *first = whole.saturating_sub(of_others);
+    }
+    (report, Cost { own, watching })
 }
 
 /// The time of one step.
 struct Cost {
-    /// Of the maps and the policy.
-    own: Duration,
+    /// Of each map, and of the policy that the first of them steers.
+    own: Vec<Duration>,
     /// Of whoever watches.
     watching: Duration,
 }
 
 /// The times of all steps, microseconds.
-#[derive(Default)]
 struct Costs {
-    own: Vec<f64>,
+    own: Vec<Vec<f64>>,
     watching: Vec<f64>,
 }
 
 impl Costs {
+    fn new(maps: usize) -> Self {
+        Self { own: vec![Vec::new(); maps], watching: Vec::new() }
+    }
+
     fn add(&mut self, cost: &Cost) {
-        self.own.push(cost.own.as_secs_f64() * 1e6);
+        for (all, own) in self.own.iter_mut().zip(&cost.own) {
+            all.push(own.as_secs_f64() * 1e6);
+        }
         self.watching.push(cost.watching.as_secs_f64() * 1e6);
     }
 
-    fn timing(&self, map_bytes_peak: u64, wall_secs: f64) -> MapTiming {
+    fn timing(&self, map: usize, map_bytes_peak: u64, wall_secs: f64) -> MapTiming {
         MapTiming {
-            step_micros_median: quantile(&self.own, 0.5),
-            step_micros_p99: quantile(&self.own, 0.99),
+            step_micros_median: quantile(&self.own[map], 0.5),
+            step_micros_p99: quantile(&self.own[map], 0.99),
             record_micros_median: quantile(&self.watching, 0.5),
             record_micros_p99: quantile(&self.watching, 0.99),
             map_bytes_peak,
@@ -252,6 +264,7 @@ impl Rider {
             backtracking_share: explorer.backtracking_share(),
             turning_rad: tally.turning_rad,
             vertices: graph.vertex_count() as u64,
+            map_invalid: map.invalid(),
             termination: ending_name(report.ending).to_owned(),
         }
     }

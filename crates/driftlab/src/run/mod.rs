@@ -3,31 +3,35 @@
 //! | file | what |
 //! |---|---|
 //! | `experiment`, `place` | from a config to a place with a start |
-//! | `drive`, `timed` | one robot's run to its end, and what it cost |
-//! | `watch`, `record` | who looks on: a recording, or nobody |
+//! | `drive`, `sides`, `timed` | one robot's run to its end, its maps, and what it cost |
+//! | `watch`, `fan`, `record` | who looks on: a recording, or nobody |
 //! | `session` | all robots of an experiment |
 //! | `report`, `steps`, `provenance` | the files of a run |
 //! | `folder` | how they get their names |
 
 mod drive;
 mod experiment;
+mod fan;
 mod folder;
 mod place;
 mod provenance;
 mod record;
 mod report;
 mod session;
+mod sides;
 mod steps;
 mod timed;
 mod watch;
 
 pub use drive::{MapRun, drive};
 pub use experiment::Experiment;
+pub use fan::Fan;
 pub use folder::{FolderError, RunFolder, names};
 pub use place::{Place, build_place};
 pub use provenance::{GIT_HASH, Input, Provenance, VERSION};
 pub use record::start_recording;
 pub use report::{MapMetrics, MapTiming, MetricsReport, TimingReport, quantile, to_file, to_json};
 pub use session::{Outcome, RunError, files, run_experiment};
+pub use sides::AtWork;
 pub use steps::{StepRow, to_parquet};
 pub use watch::{StepSeen, Watch};

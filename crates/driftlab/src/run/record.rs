@@ -29,14 +29,24 @@ pub fn start_recording(
         config::Level::Summary => Level::Summary,
         config::Level::Full => Level::Full,
     };
-    let config::Every { sensing, pose_graph, consolidation, grid, planner, truth } =
-        config.record.every;
+    let config::Every {
+        sensing,
+        pose_graph,
+        consolidation,
+        grid,
+        planner,
+        correction,
+        polygons,
+        truth,
+    } = config.record.every;
     let every = Every::STEP
         .with(Family::Sensing, sensing)
         .with(Family::PoseGraph, pose_graph)
         .with(Family::Consolidation, consolidation)
         .with(Family::Grid, grid)
         .with(Family::Planner, planner)
+        .with(Family::Correction, correction)
+        .with(Family::Polygons, polygons)
         .with(Family::Truth, truth);
     let scope_m = config.map.relative.as_ref().map_or(0.0, |map| map.consolidation_radius_m);
     Ok(Recording::create(RecordingOptions {
@@ -44,7 +54,7 @@ pub fn start_recording(
         name: config.name.clone(),
         level,
         every,
-        maps: experiment.robots().iter().map(|maps| MapOptions::of_kind(maps[0])).collect(),
+        maps: experiment.robots().iter().flatten().map(|kind| MapOptions::of_kind(kind)).collect(),
         about: about.to_owned(),
         config: plain_toml(config)?,
         bounds_in_world: experiment.place.world.bounds(),
@@ -65,7 +75,7 @@ impl Watch for Recorder {
     }
 
     fn step_ends(&mut self, end: &StepSeen<'_>) -> Result<(), InstrumentError> {
-        let row = end.row;
+        let Some(row) = end.rows.first() else { return Ok(()) };
         let drift_m = (row.world_from_body.translation - row.odom_from_body.translation).norm();
         self.end_step(&StepEnd {
             standing: end.report.standing,

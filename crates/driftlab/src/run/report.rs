@@ -61,6 +61,8 @@ pub struct MapMetrics {
     pub turning_rad: f64,
     /// Vertices of the pose graph.
     pub vertices: u64,
+    /// How often the map found itself broken, and kept a view out.
+    pub map_invalid: u64,
     /// How the run ended.
     pub termination: String,
 }

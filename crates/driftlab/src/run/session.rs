@@ -3,11 +3,11 @@
 use std::path::Path;
 use std::time::Instant;
 
-use instrument::InstrumentError;
+use instrument::{InstrumentError, Recorder};
 
 use super::{
-    Experiment, Input, MapRun, MetricsReport, Provenance, StepRow, TimingReport, VERSION, drive,
-    provenance::GIT_HASH, report, start_recording, to_parquet,
+    Experiment, Fan, Input, MapRun, MetricsReport, Provenance, StepRow, TimingReport,
+    VERSION, drive, provenance::GIT_HASH, report, start_recording, to_parquet,
 };
 use crate::table::TableError;
 
@@ -57,10 +57,10 @@ pub fn run_experiment(
     let recording = start_recording(experiment, recording, about)?;
     let mut runs: Vec<MapRun> = Vec::new();
     for kinds in experiment.robots() {
-        let mut recorder = recording.recorder(kinds[0]);
+        let mut recorders = Fan::new(kinds.iter().map(|kind| recording.recorder(kind)).collect());
         let Experiment { config, place, coverage } = experiment;
-        runs.extend(drive(config, &place.world, coverage, &kinds, &mut recorder, on_step)?);
-        recorder.send()?;
+        runs.extend(drive(config, &place.world, coverage, &kinds, &mut recorders, on_step)?);
+        recorders.into_watchers().iter_mut().try_for_each(Recorder::send)?;
     }
     let mut outcome = Outcome {
         metrics: MetricsReport {

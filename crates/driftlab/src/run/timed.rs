@@ -5,6 +5,8 @@ use std::time::{Duration, Instant};
 use probe::{Probe, VertexId};
 use sensing::{Odometry, PlaceMatch, Repeated, Robot, Scan};
 
+use super::sides::AtWork;
+
 /// A robot whose own time is taken.
 pub(super) struct TimedRobot<'a> {
     robot: &'a mut dyn Robot,
@@ -53,12 +55,15 @@ impl Robot for TimedRobot<'_> {
 /// A listener whose own time is taken; one that is off takes none.
 pub(super) struct TimedProbe<'a, P: ?Sized> {
     probe: &'a mut P,
+    at_work: &'a AtWork,
     pub(super) spent: Duration,
+    /// The part of it that each map gave cause to.
+    pub(super) spent_on: Vec<Duration>,
 }
 
 impl<'a, P: ?Sized> TimedProbe<'a, P> {
-    pub(super) fn new(probe: &'a mut P) -> Self {
-        Self { probe, spent: Duration::ZERO }
+    pub(super) fn new(probe: &'a mut P, at_work: &'a AtWork, maps: usize) -> Self {
+        Self { probe, at_work, spent: Duration::ZERO, spent_on: vec![Duration::ZERO; maps] }
     }
 }
 
@@ -71,7 +76,13 @@ impl<E, P: Probe<E> + ?Sized> Probe<E> for TimedProbe<'_, P> {
         if self.probe.on() {
             let start = Instant::now();
             self.probe.emit(event);
-            self.spent += start.elapsed();
+            let spent = start.elapsed();
+            self.spent += spent;
+            if let Some(map) = self.at_work.current()
+                && let Some(of_map) = self.spent_on.get_mut(map)
+            {
+                *of_map += spent;
+            }
         }
     }
 }
@@ -92,11 +103,12 @@ mod tests {
             }
         }
         let mut deaf = Deaf;
-        let mut timed = TimedProbe::new(&mut deaf);
+        let at_work = AtWork::new(1);
+        let mut timed = TimedProbe::new(&mut deaf, &at_work, 1);
         timed.emit(1);
         assert_eq!(timed.spent, Duration::ZERO);
         let mut heard: Vec<u8> = Vec::new();
-        TimedProbe::new(&mut heard).emit(3);
+        TimedProbe::new(&mut heard, &at_work, 1).emit(3);
         assert_eq!(heard, [3]);
     }
 }

@@ -5,12 +5,15 @@ use metrics::{Coverage, Witness};
 use probe::Off;
 use worlds::World2d;
 
-use super::StepRow;
+use super::{AtWork, StepRow};
 
 /// A listener of everything that one robot and its maps tell, and of the truth beside it.
 pub trait Watch: ExploreProbe {
     /// Why it can no longer watch.
     type Error;
+
+    /// Which map is at work can be asked from now on; before the first step.
+    fn maps(&mut self, _at_work: &AtWork) {}
 
     /// The place, once and before the first step.
     ///
@@ -38,8 +41,8 @@ pub struct StepSeen<'a> {
     pub witness: &'a Witness,
     /// The cells first seen in this step, as indices into the coverage.
     pub newly_seen: &'a [usize],
-    /// The row of the steering map in `steps.parquet`.
-    pub row: &'a StepRow,
+    /// The rows of the maps in `steps.parquet`, the steering one first.
+    pub rows: &'a [&'a StepRow],
 }
 
 impl Watch for Off {

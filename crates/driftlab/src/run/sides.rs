@@ -1,0 +1,233 @@
+//! The maps of one robot: which of them is at work, what it cost, and poses that are given.
+
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
+use std::sync::{Arc, Mutex, PoisonError};
+use std::time::{Duration, Instant};
+
+use geometry::Point2;
+use maps2d::active::ActiveArea;
+use maps2d::correction::GivenPoses;
+use maps2d::extended::ExtendedMap;
+use maps2d::grid::{CorrectedGrid, GridMap};
+use maps2d::polygons::CorrectedPolygons;
+use maps2d::relative::RelativeMap;
+use maps2d::{Candidate, Clearance, ExplorationMap, Frontier, MapProbe, Route, Standing, Vantage};
+use metrics::Witness;
+use pose::Se2;
+use posegraph::PoseGraph;
+use probe::{EdgeId, IdVec, VertexId};
+use sensing::{Odometry, PlaceMatch, Repeated, Robot, Scan};
+
+use crate::config::{Config, Poses};
+
+/// The map of a kind, if the config builds it.
+pub(super) fn map_of(
+    config: &Config,
+    kind: &str,
+    truth: &TruePoses,
+) -> Option<Box<dyn ExplorationMap + Send>> {
+    match kind {
+        "relative" => Some(Box::new(RelativeMap::new(config.relative_params()?))),
+        "grid" => {
+            let map = config.map.grid.as_ref()?;
+            Some(Box::new(match map.poses {
+                Poses::Odometry => GridMap::new(map.into()),
+                Poses::True => GridMap::with_poses(map.into(), Arc::new(truth.clone())),
+            }))
+        }
+        "grid_corrected" => {
+            let (grid, correction) = config.grid_corrected_params()?;
+            Some(Box::new(CorrectedGrid::new(grid, correction)))
+        }
+        "corrected_polygons" => {
+            Some(Box::new(CorrectedPolygons::new(config.corrected_polygons_params()?)))
+        }
+        "active_area" => Some(Box::new(ActiveArea::new(config.active_area_params()?))),
+        "extended" => Some(Box::new(ExtendedMap::new(config.extended_params()?))),
+        _ => None,
+    }
+}
+
+/// The true poses of vertices from the start, for the baselines that are given them.
+#[derive(Clone, Debug, Default)]
+pub(super) struct TruePoses(Arc<Mutex<IdVec<VertexId, Se2>>>);
+
+impl GivenPoses for TruePoses {
+    fn map_from_vertex(&self, vertex: VertexId) -> Option<Se2> {
+        self.0.lock().unwrap_or_else(PoisonError::into_inner).get(vertex).copied()
+    }
+}
+
+/// A robot that tells the true pose of every vertex that is marked; to nobody but baselines.
+pub(super) struct Telling<'a> {
+    pub(super) witness: &'a mut Witness,
+    pub(super) truth: &'a TruePoses,
+}
+
+impl Robot for Telling<'_> {
+    fn turn(&mut self, angle_rad: f64) -> Odometry {
+        self.witness.turn(angle_rad)
+    }
+
+    fn forward(&mut self, distance_m: f64) -> Odometry {
+        self.witness.forward(distance_m)
+    }
+
+    fn repeat(&mut self, to: VertexId, length_m: f64) -> Repeated {
+        self.witness.repeat(to, length_m)
+    }
+
+    fn scan(&mut self) -> Scan {
+        self.witness.scan()
+    }
+
+    fn mark(&mut self, vertex: VertexId) {
+        self.witness.mark(vertex);
+        let world_from_start = self.witness.robot().world().world_from_start();
+        let start_from_vertex = world_from_start.inverse_mul(&self.witness.world_from_body());
+        let mut known = self.truth.0.lock().unwrap_or_else(PoisonError::into_inner);
+        while known.next_id() < vertex {
+            known.push(Se2::identity());
+        }
+        if known.next_id() == vertex {
+            known.push(start_from_vertex);
+        }
+    }
+
+    fn recognize(&mut self) -> Vec<PlaceMatch> {
+        self.witness.recognize()
+    }
+}
+
+/// Which map is at work, and how long each was: shared with the maps themselves.
+#[derive(Clone, Debug)]
+pub struct AtWork {
+    current: Arc<AtomicUsize>,
+    nanos: Arc<[AtomicU64]>,
+}
+
+impl AtWork {
+    /// So many maps, none of them at work.
+    pub(super) fn new(maps: usize) -> Self {
+        Self {
+            current: Arc::new(AtomicUsize::new(usize::MAX)),
+            nanos: (0..maps).map(|_| AtomicU64::new(0)).collect(),
+        }
+    }
+
+    /// The index of the map that is at work, if one is.
+    pub fn current(&self) -> Option<usize> {
+        let index = self.current.load(Ordering::Relaxed);
+        (index != usize::MAX).then_some(index)
+    }
+
+    /// The time that a map was at work since this was asked last.
+    pub(super) fn take(&self, map: usize) -> Duration {
+        Duration::from_nanos(self.nanos[map].swap(0, Ordering::Relaxed))
+    }
+}
+
+/// A map that says when it is at work, and takes the time of it.
+pub(super) struct Side {
+    inner: Box<dyn ExplorationMap + Send>,
+    index: usize,
+    at_work: AtWork,
+}
+
+impl Side {
+    pub(super) fn new(
+        inner: Box<dyn ExplorationMap + Send>,
+        index: usize,
+        at_work: &AtWork,
+    ) -> Self {
+        Self { inner, index, at_work: at_work.clone() }
+    }
+
+    fn timed<T>(&mut self, work: impl FnOnce(&mut dyn ExplorationMap) -> T) -> T {
+        self.at_work.current.store(self.index, Ordering::Relaxed);
+        let start = Instant::now();
+        let result = work(self.inner.as_mut());
+        let nanos = u64::try_from(start.elapsed().as_nanos()).unwrap_or(u64::MAX);
+        self.at_work.nanos[self.index].fetch_add(nanos, Ordering::Relaxed);
+        self.at_work.current.store(usize::MAX, Ordering::Relaxed);
+        result
+    }
+}
+
+impl ExplorationMap for Side {
+    fn kind(&self) -> &'static str {
+        self.inner.kind()
+    }
+
+    fn edges_added(&mut self, graph: &PoseGraph, edges: &[EdgeId], probe: &mut dyn MapProbe) {
+        self.timed(|map| map.edges_added(graph, edges, probe));
+    }
+
+    fn edge_withdrawn(&mut self, graph: &PoseGraph, edge: EdgeId, probe: &mut dyn MapProbe) {
+        self.timed(|map| map.edge_withdrawn(graph, edge, probe));
+    }
+
+    fn poses_reestimated(&mut self, map_from_vertex: &[Se2], probe: &mut dyn MapProbe) {
+        self.timed(|map| map.poses_reestimated(map_from_vertex, probe));
+    }
+
+    fn scanned(&mut self, standing: &Standing, scan: &Scan, probe: &mut dyn MapProbe) {
+        self.timed(|map| map.scanned(standing, scan, probe));
+    }
+
+    fn frontier(&self) -> Frontier {
+        self.inner.frontier()
+    }
+
+    fn in_view(&mut self, standing: &Standing, out: &mut Vec<Candidate>) {
+        self.timed(|map| map.in_view(standing, out));
+    }
+
+    fn around(&mut self, standing: &Standing, out: &mut Vec<Candidate>) {
+        self.timed(|map| map.around(standing, out));
+    }
+
+    fn clearance(&mut self, standing: &Standing, to_in_body: &Point2) -> Clearance {
+        self.timed(|map| map.clearance(standing, to_in_body))
+    }
+
+    fn route(&mut self, standing: &Standing, clearance_m: f64) -> Option<Route> {
+        self.timed(|map| map.route(standing, clearance_m))
+    }
+
+    fn frontier_at(&self, vertex: VertexId) -> f64 {
+        self.inner.frontier_at(vertex)
+    }
+
+    fn detour(
+        &self,
+        standing: &Standing,
+        goal_in_body: &Point2,
+        clearance_m: f64,
+    ) -> Option<Point2> {
+        self.inner.detour(standing, goal_in_body, clearance_m)
+    }
+
+    fn vantage(&mut self, standing: &Standing, goal: &Point2, clearance_m: f64) -> Option<Vantage> {
+        self.timed(|map| map.vantage(standing, goal, clearance_m))
+    }
+
+    fn give_up(
+        &mut self,
+        standing: &Standing,
+        goal_in_body: &Point2,
+        radius_m: f64,
+        everywhere: bool,
+        probe: &mut dyn MapProbe,
+    ) {
+        self.timed(|map| map.give_up(standing, goal_in_body, radius_m, everywhere, probe));
+    }
+
+    fn invalid(&self) -> u64 {
+        self.inner.invalid()
+    }
+
+    fn bytes(&self) -> usize {
+        self.inner.bytes()
+    }
+}
