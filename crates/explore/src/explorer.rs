@@ -111,6 +111,11 @@ impl Explorer {
         &self.maps
     }
 
+    /// The maps, to be asked; what is done to the first one steers.
+    pub fn maps_mut(&mut self) -> &mut [Box<dyn ExplorationMap + Send>] {
+        &mut self.maps
+    }
+
     /// Steps taken, the first included.
     pub fn steps(&self) -> u64 {
         self.steps

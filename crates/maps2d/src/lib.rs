@@ -11,4 +11,6 @@ pub mod relative;
 pub mod volume;
 
 pub use events::MapProbe;
-pub use map::{Candidate, Clearance, ExplorationMap, Frontier, Route, Standing, Vantage};
+pub use map::{
+    Candidate, Clearance, ExplorationMap, Frontier, GlobalBelief, Route, Standing, Vantage,
+};

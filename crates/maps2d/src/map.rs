@@ -7,6 +7,7 @@ use probe::{EdgeId, VertexId};
 use sensing::Scan;
 
 use crate::MapProbe;
+use crate::grid::Cells;
 
 /// Where the robot believes that it stands: at a vertex, maybe turned.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -99,6 +100,17 @@ pub struct Vantage {
     pub goal_in_vertex: Point2,
 }
 
+/// What a map with one global frame believes, in that frame; for judging it, not for deciding.
+#[derive(Clone, Debug)]
+pub struct GlobalBelief {
+    /// Free, occupied and unknown space as cells.
+    pub cells: Cells,
+    /// What is believed to be solid, as segments; a point where it is not known better.
+    pub walls: Vec<(Point2, Point2)>,
+    /// Where each vertex is believed to be.
+    pub map_from_vertex: Vec<Se2>,
+}
+
 /// A map of the plane that exploration runs on: fed with scans and graph events, asked for frontiers.
 ///
 /// Points and goals are in the body frame of [`Standing`], so that no answer needs a global frame.
@@ -171,6 +183,17 @@ pub trait ExplorationMap {
         everywhere: bool,
         probe: &mut dyn MapProbe,
     );
+
+    /// Whether the map takes a point in the body frame for known, free or occupied: so that beliefs of
+    /// several maps can be compared where the robot stands.
+    fn knows(&self, _standing: &Standing, _point_in_body: &Point2) -> bool {
+        false
+    }
+
+    /// All that the map believes, if it has one global frame. Cost: the whole map.
+    fn global(&self) -> Option<GlobalBelief> {
+        None
+    }
 
     /// How often the map found itself broken, and kept a view out: 0 for maps that cannot be.
     fn invalid(&self) -> u64 {

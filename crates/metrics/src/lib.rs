@@ -1,5 +1,6 @@
 #![doc = include_str!("../README.md")]
 
+mod accuracy;
 mod coverage;
 mod error;
 mod free_cells;
@@ -9,6 +10,7 @@ mod verdict;
 mod view_fill;
 mod witness;
 
+pub use accuracy::Accuracy;
 pub use coverage::{CellShape, Coverage, CoverageParams, Rule};
 pub use error::MetricsError;
 pub use verdict::Verdict;

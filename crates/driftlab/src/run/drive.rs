@@ -5,10 +5,13 @@ use std::time::{Duration, Instant};
 
 use explore::{Ending, ExploreParams, Explorer, State, StepReport};
 use maps2d::ExplorationMap;
-use metrics::{Coverage, Witness};
+use metrics::{Accuracy, Coverage, Witness};
+use pose::Se2;
 use posegraph::EdgeKind;
+use probe::VertexId;
 use worlds::{RobotParams, SimRobot, World2d};
 
+use super::disagree::{Disagreement, disagreement};
 use super::sides::{AtWork, Side, Telling, TruePoses, map_of};
 use super::timed::{TimedProbe, TimedRobot};
 use super::{MapMetrics, MapTiming, StepRow, StepSeen, Watch, quantile};
@@ -28,6 +31,8 @@ pub struct MapRun {
     pub timing: MapTiming,
     /// Its steps.
     pub rows: Vec<StepRow>,
+    /// Where the maps of its robot first disagreed about a frontier; the same for all of them.
+    pub disagreement: Option<Disagreement>,
 }
 
 /// Runs one robot to its end; the first of `kinds` steers, the others ride along.
@@ -57,6 +62,7 @@ pub fn drive<W: Watch>(
     let mut riders: Vec<Rider> = kinds.iter().map(|&kind| Rider::new(kind)).collect();
     let mut costs = Costs::new(riders.len());
 
+    let mut quarrel: Option<Disagreement> = None;
     watch.maps(&at_work);
     watch.place(world, coverage)?;
     let mut step = 0;
@@ -68,6 +74,11 @@ pub fn drive<W: Watch>(
         let newly_seen = witness.take_newly_seen();
         for (rider, map) in riders.iter_mut().zip(explorer.maps()) {
             rider.step(step, &explorer, &report, map.as_ref(), &witness);
+        }
+        if kinds.len() > 1 && quarrel.is_none() {
+            quarrel = disagreement(step, &report, kinds, explorer.maps_mut(), &witness);
+            // Asking is nobody's step.
+            (0..kinds.len()).for_each(|map| _ = at_work.take(map));
         }
         let rows: Vec<&StepRow> = riders.iter().filter_map(|rider| rider.rows.last()).collect();
         let end = StepSeen {
@@ -98,6 +109,7 @@ pub fn drive<W: Watch>(
             metrics: rider.metrics(steers, &explorer, &report, map.as_ref(), &witness),
             timing: costs.timing(index, rider.bytes_peak, wall_secs),
             rows: rider.rows,
+            disagreement: quarrel.clone(),
         });
     }
     Ok(runs)
@@ -238,6 +250,13 @@ impl Rider {
         let graph = explorer.graph();
         let place_edges = graph.edges().filter(|(_, edge)| edge.kind == EdgeKind::Place).count();
         debug_assert_eq!(place_edges as u64, explorer.place_edges(), "edges are counted twice");
+        let robot = witness.robot();
+        let truth: Vec<Se2> = (0..graph.vertex_count() as u32)
+            .map_while(|vertex| robot.world_from_vertex(VertexId(vertex)))
+            .collect();
+        let accuracy = map
+            .global()
+            .map(|belief| Accuracy::of(robot.world(), witness.coverage(), &belief, &truth));
         MapMetrics {
             believed_complete: verdict.believed_complete,
             coverage: verdict.coverage,
@@ -265,6 +284,9 @@ impl Rider {
             turning_rad: tally.turning_rad,
             vertices: graph.vertex_count() as u64,
             map_invalid: map.invalid(),
+            free_iou: accuracy.map(|a| a.free_iou),
+            wall_distance_m: accuracy.and_then(|a| a.wall_distance_m),
+            ate_m: accuracy.and_then(|a| a.ate_m),
             termination: ending_name(report.ending).to_owned(),
         }
     }

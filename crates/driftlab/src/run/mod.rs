@@ -4,11 +4,13 @@
 //! |---|---|
 //! | `experiment`, `place` | from a config to a place with a start |
 //! | `drive`, `sides`, `timed` | one robot's run to its end, its maps, and what it cost |
+//! | `disagree` | where several maps of one robot first disagree |
 //! | `watch`, `fan`, `record` | who looks on: a recording, or nobody |
 //! | `session` | all robots of an experiment |
 //! | `report`, `steps`, `provenance` | the files of a run |
 //! | `folder` | how they get their names |
 
+mod disagree;
 mod drive;
 mod experiment;
 mod fan;
@@ -23,6 +25,7 @@ mod steps;
 mod timed;
 mod watch;
 
+pub use disagree::Disagreement;
 pub use drive::{MapRun, drive};
 pub use experiment::Experiment;
 pub use fan::Fan;

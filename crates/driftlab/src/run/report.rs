@@ -3,6 +3,8 @@
 use serde::Serialize;
 use serde_json::Value;
 
+use super::Disagreement;
+
 /// What `metrics.json` holds: the same for the same config, seed and program.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MetricsReport {
@@ -13,6 +15,9 @@ pub struct MetricsReport {
     /// Each map's result by its name, in the order in which they ran.
     #[serde(serialize_with = "as_object")]
     pub maps: Vec<(String, MapMetrics)>,
+    /// Where maps that one robot feeds first disagreed about a frontier.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub disagreement: Option<Disagreement>,
 }
 
 /// What one map believed and what was true.
@@ -63,6 +68,12 @@ pub struct MapMetrics {
     pub vertices: u64,
     /// How often the map found itself broken, and kept a view out.
     pub map_invalid: u64,
+    /// Intersection over union of believed and true free space; null without a global frame.
+    pub free_iou: Option<f64>,
+    /// Mean distance of believed walls from true ones, metres; null without a global frame.
+    pub wall_distance_m: Option<f64>,
+    /// Absolute trajectory error of the map's poses, metres; null without a global frame.
+    pub ate_m: Option<f64>,
     /// How the run ended.
     pub termination: String,
 }

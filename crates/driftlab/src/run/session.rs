@@ -67,6 +67,7 @@ pub fn run_experiment(
             name: experiment.config.name.clone(),
             seed: experiment.config.seed,
             maps: runs.iter().map(|run| (run.name.to_owned(), run.metrics.clone())).collect(),
+            disagreement: runs.iter().find_map(|run| run.disagreement.clone()),
         },
         timing: TimingReport {
             maps: runs.iter().map(|run| (run.name.to_owned(), run.timing.clone())).collect(),

@@ -11,7 +11,10 @@ use maps2d::extended::ExtendedMap;
 use maps2d::grid::{CorrectedGrid, GridMap};
 use maps2d::polygons::CorrectedPolygons;
 use maps2d::relative::RelativeMap;
-use maps2d::{Candidate, Clearance, ExplorationMap, Frontier, MapProbe, Route, Standing, Vantage};
+use maps2d::{
+    Candidate, Clearance, ExplorationMap, Frontier, GlobalBelief, MapProbe, Route, Standing,
+    Vantage,
+};
 use metrics::Witness;
 use pose::Se2;
 use posegraph::PoseGraph;
@@ -221,6 +224,14 @@ impl ExplorationMap for Side {
         probe: &mut dyn MapProbe,
     ) {
         self.timed(|map| map.give_up(standing, goal_in_body, radius_m, everywhere, probe));
+    }
+
+    fn knows(&self, standing: &Standing, point_in_body: &Point2) -> bool {
+        self.inner.knows(standing, point_in_body)
+    }
+
+    fn global(&self) -> Option<GlobalBelief> {
+        self.inner.global()
     }
 
     fn invalid(&self) -> u64 {

@@ -16,10 +16,13 @@ use super::untwist::{Splits, untwist};
 use super::{Broken, Corner, Twisted};
 use crate::correction::{Correction, CorrectionParams};
 use crate::polygons::{
-    GivenUp, GlobalPlanner, Here, OpenFrontier, OpenParams, PolygonEvent, Tag, region_of,
+    GivenUp, GlobalPlanner, Here, OpenFrontier, OpenParams, PolygonEvent, Tag, global_of, region_of,
 };
 use crate::volume::{LocalVolume, VolumeParams};
-use crate::{Candidate, Clearance, ExplorationMap, Frontier, MapProbe, Route, Standing, Vantage};
+use crate::{
+    Candidate, Clearance, ExplorationMap, Frontier, GlobalBelief, MapProbe, Route, Standing,
+    Vantage,
+};
 
 /// Parameters of [`ActiveArea`].
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -425,6 +428,15 @@ impl ExplorationMap for ActiveArea {
         let at_in_vertex = standing.vertex_from_body.transform(goal_in_body);
         self.given_up.push(GivenUp { vertex: standing.vertex, at_in_vertex, radius_m });
         self.measure();
+    }
+
+    fn knows(&self, standing: &Standing, point_in_body: &Point2) -> bool {
+        let point = self.map_from_body(standing).transform(point_in_body);
+        self.rings.iter().map(|ring| winding(ring, &point)).sum::<i32>() > 0
+    }
+
+    fn global(&self) -> Option<GlobalBelief> {
+        Some(global_of(&region_of_rings(&self.rings), self.correction.poses()))
     }
 
     fn invalid(&self) -> u64 {

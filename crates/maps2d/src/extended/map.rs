@@ -334,6 +334,16 @@ impl ExplorationMap for ExtendedMap {
         }
     }
 
+    fn knows(&self, standing: &Standing, point_in_body: &Point2) -> bool {
+        let root = self.members.first().map(|member| member.vertex);
+        let point = standing.vertex_from_body.transform(point_in_body);
+        root == Some(standing.vertex)
+            && self.members.iter().any(|member| {
+                let at = member.root_from_vertex.inverse_transform(&point);
+                self.local(member.vertex).is_some_and(|local| local.volume.polygon.contains(&at))
+            })
+    }
+
     fn bytes(&self) -> usize {
         let locals: usize = self
             .locals

@@ -9,7 +9,10 @@ use sensing::Scan;
 
 use super::{GridMap, GridParams};
 use crate::correction::{Correction, CorrectionParams};
-use crate::{Candidate, Clearance, ExplorationMap, Frontier, MapProbe, Route, Standing, Vantage};
+use crate::{
+    Candidate, Clearance, ExplorationMap, Frontier, GlobalBelief, MapProbe, Route, Standing,
+    Vantage,
+};
 
 /// An occupancy grid in a frame that an optimiser keeps consistent.
 #[derive(Clone, Debug)]
@@ -110,6 +113,14 @@ impl ExplorationMap for CorrectedGrid {
         probe: &mut dyn MapProbe,
     ) {
         self.grid.give_up(standing, goal_in_body, radius_m, everywhere, probe);
+    }
+
+    fn knows(&self, standing: &Standing, point_in_body: &Point2) -> bool {
+        self.grid.knows(standing, point_in_body)
+    }
+
+    fn global(&self) -> Option<GlobalBelief> {
+        self.grid.global()
     }
 
     fn bytes(&self) -> usize {

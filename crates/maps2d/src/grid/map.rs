@@ -9,10 +9,13 @@ use posegraph::{EdgeKind, PoseGraph};
 use probe::{EdgeId, IdVec, VertexId};
 use sensing::Scan;
 
-use super::{Cell, Cells, GridEvent};
+use super::{Cell, CellState, Cells, GridEvent};
 use crate::correction::GivenPoses;
 use crate::volume::{LocalVolume, Samples, VolumeParams, build};
-use crate::{Candidate, Clearance, ExplorationMap, Frontier, MapProbe, Route, Standing, Vantage};
+use crate::{
+    Candidate, Clearance, ExplorationMap, Frontier, GlobalBelief, MapProbe, Route, Standing,
+    Vantage,
+};
 
 /// Parameters of the grid.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -218,6 +221,23 @@ impl ExplorationMap for GridMap {
         _probe: &mut dyn MapProbe,
     ) {
         self.give_up_near(standing, goal_in_body, radius_m);
+    }
+
+    fn knows(&self, standing: &Standing, point_in_body: &Point2) -> bool {
+        let cell = self.cells.at(&self.odom_from_body(standing).transform(point_in_body));
+        self.cells.state(cell) != CellState::Unknown
+    }
+
+    fn global(&self) -> Option<GlobalBelief> {
+        let solid = (0..self.cells.slots())
+            .map(|slot| self.cells.cell(slot))
+            .filter(|cell| self.cells.state(*cell) == CellState::Occupied)
+            .map(|cell| self.cells.centre(cell));
+        Some(GlobalBelief {
+            walls: solid.map(|centre| (centre, centre)).collect(),
+            cells: self.cells.clone(),
+            map_from_vertex: self.odom_from_vertex.as_slice().to_vec(),
+        })
     }
 
     fn bytes(&self) -> usize {

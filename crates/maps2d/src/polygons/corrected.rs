@@ -7,10 +7,15 @@ use posegraph::PoseGraph;
 use probe::{EdgeId, IdVec, Probe, VertexId};
 use sensing::Scan;
 
+use super::raster::global_of;
+use super::tag::with_straight_walls;
 use super::{GivenUp, GlobalPlanner, Here, OpenFrontier, OpenParams, PolygonEvent, Tag, region_of};
 use crate::correction::{Correction, CorrectionParams};
 use crate::volume::{LocalVolume, Samples, VolumeParams, build};
-use crate::{Candidate, Clearance, ExplorationMap, Frontier, MapProbe, Route, Standing, Vantage};
+use crate::{
+    Candidate, Clearance, ExplorationMap, Frontier, GlobalBelief, MapProbe, Route, Standing,
+    Vantage,
+};
 
 /// Parameters of [`CorrectedPolygons`].
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -241,6 +246,14 @@ impl ExplorationMap for CorrectedPolygons {
         let at_in_vertex = standing.vertex_from_body.transform(goal_in_body);
         self.given_up.push(GivenUp { vertex: standing.vertex, at_in_vertex, radius_m });
         self.measure();
+    }
+
+    fn knows(&self, standing: &Standing, point_in_body: &Point2) -> bool {
+        self.region.contains(&self.map_from_body(standing).transform(point_in_body))
+    }
+
+    fn global(&self) -> Option<GlobalBelief> {
+        Some(global_of(&self.region, self.correction.poses()))
     }
 
     fn bytes(&self) -> usize {

@@ -45,4 +45,5 @@ pub(crate) use here::Here;
 pub use open::{OpenChain, OpenFrontier, OpenParams, OpenPart};
 pub(crate) use planner::{GivenUp, GlobalPlanner};
 pub use raster::cells_of;
+pub(crate) use raster::global_of;
 pub use tag::{Tag, region_of};

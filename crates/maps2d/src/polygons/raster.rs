@@ -3,7 +3,10 @@
 use geometry::Point2;
 use geometry::planar::overlay::{EdgeLabel, Region};
 
+use pose::Se2;
+
 use super::Tag;
+use crate::GlobalBelief;
 use crate::grid::{Cell, CellState, Cells};
 
 /// The cells of a region: free where the centre lies inside, occupied where an obstacle edge passes
@@ -60,4 +63,17 @@ pub fn cells_of(region: &Region<Tag>, cell_m: f64) -> Cells {
         }
     }
     cells
+}
+
+/// Side of the cells by which a region is judged, metres.
+const JUDGED_CELL_M: f64 = 0.25;
+
+/// A region and its poses as what a map believes.
+pub(crate) fn global_of(region: &Region<Tag>, map_from_vertex: &[Se2]) -> GlobalBelief {
+    let solid = region.edges().filter(|edge| edge.label == EdgeLabel::Obstacle);
+    GlobalBelief {
+        walls: solid.map(|edge| (edge.from, edge.to)).collect(),
+        cells: cells_of(region, JUDGED_CELL_M),
+        map_from_vertex: map_from_vertex.to_vec(),
+    }
 }

@@ -231,6 +231,17 @@ impl ExplorationMap for RelativeMap {
         self.hold_slivers(probe);
     }
 
+    fn knows(&self, standing: &Standing, point_in_body: &Point2) -> bool {
+        let mut scope = Scope::default();
+        let radius_m = self.params.consolidation_radius_m;
+        ScopeScratch::default().place(&self.full, standing.vertex, radius_m, &mut scope);
+        let point = standing.vertex_from_body.transform(point_in_body);
+        scope.placed().iter().any(|row| {
+            let at = row.root_from_vertex.inverse_transform(&point);
+            self.volume(row.vertex).is_some_and(|state| state.volume.polygon.contains(&at))
+        })
+    }
+
     fn bytes(&self) -> usize {
         let volumes: usize =
             self.volumes().map(|(_, state)| size_of::<VolumeState>() + state.heap_bytes()).sum();

@@ -1,6 +1,7 @@
 //! Laws of the maps, held against brute force on random rooms, and known answers.
 #![expect(clippy::unwrap_used, reason = "a test may panic")]
 
+mod active;
 mod asked;
 mod consolidation;
 mod corrected;

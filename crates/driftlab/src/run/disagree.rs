@@ -1,0 +1,98 @@
+//! Where the beliefs of several maps first disagree about a frontier.
+
+use geometry::Point2;
+use maps2d::{Candidate, ExplorationMap};
+use metrics::Witness;
+use serde::Serialize;
+
+use explore::StepReport;
+
+/// How far behind a frontier the other map is asked, metres.
+const BEHIND_M: f64 = 0.6;
+
+/// Frontier shorter than this is nobody's quarrel, metres.
+const LEAST_M: f64 = 0.9;
+
+/// Two maps that were fed the same, and one of which says "unknown" where the other says "known".
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Disagreement {
+    /// Step of the loop.
+    pub step: u64,
+    /// Distance driven until then, metres.
+    pub distance_m: f64,
+    /// The map that sees a frontier.
+    pub open_in: &'static str,
+    /// The map that believes to know what lies behind it.
+    pub known_in: &'static str,
+    /// The middle of the frontier where it truly is, world frame, metres.
+    pub frontier_x_m: f64,
+    /// The same, northwards.
+    pub frontier_y_m: f64,
+    /// Its length, metres.
+    pub length_m: f64,
+    /// `drift`: what lies behind was never truly seen, so the map that claims to know it has laid
+    /// another place over it. `not_consolidated`: it was seen, and the map with the frontier does not
+    /// count that.
+    pub cause: &'static str,
+}
+
+/// The first frontier in view of any map behind which another map knows something.
+///
+/// Cost: the frontiers in view, times the maps.
+pub fn disagreement(
+    step: u64,
+    report: &StepReport,
+    names: &[&'static str],
+    maps: &mut [Box<dyn ExplorationMap + Send>],
+    witness: &Witness,
+) -> Option<Disagreement> {
+    let standing = report.standing;
+    let mut seen: Vec<Candidate> = Vec::new();
+    for open in 0..maps.len() {
+        maps[open].in_view(&standing, &mut seen);
+        for candidate in seen.iter().filter(|c| !c.turn_only && c.length_m >= LEAST_M) {
+            let goal = candidate.goals_in_body[0];
+            let ahead = goal.coords.try_normalize(0.0);
+            let normal = Some(candidate.normal_in_body).filter(|n| n.norm_squared() > 0.0);
+            let Some(normal) = normal.or(ahead) else { continue };
+            let behind = goal + normal * BEHIND_M;
+            let others = (0..maps.len()).filter(|&other| other != open);
+            // Cells and polygons end at different places: the map itself has to be sure.
+            if maps[open].knows(&standing, &behind) {
+                continue;
+            }
+            let known = others.into_iter().find(|&other| {
+                [0.5, 1.0, 1.5]
+                    .iter()
+                    .all(|k| maps[other].knows(&standing, &(goal + normal * (k * BEHIND_M))))
+            });
+            let Some(known) = known else { continue };
+            let world_from_body = witness.world_from_body();
+            let frontier = world_from_body.transform(&goal);
+            let truly_seen = is_seen(witness, &world_from_body.transform(&behind));
+            return Some(Disagreement {
+                step,
+                distance_m: witness.tally().distance_m,
+                open_in: names[open],
+                known_in: names[known],
+                frontier_x_m: frontier.x,
+                frontier_y_m: frontier.y,
+                length_m: candidate.length_m,
+                cause: if truly_seen { "not_consolidated" } else { "drift" },
+            });
+        }
+    }
+    None
+}
+
+/// Whether the place was truly seen so far.
+fn is_seen(witness: &Witness, point_in_world: &Point2) -> bool {
+    let coverage = witness.coverage();
+    let (origin, _) = witness.robot().world().bounds();
+    let (columns, rows) = coverage.size();
+    let side_m = coverage.cell_m();
+    let x = (point_in_world.x - origin.x) / side_m.x;
+    let y = (point_in_world.y - origin.y) / side_m.y;
+    let within = x >= 0.0 && y >= 0.0 && x < columns as f64 && y < rows as f64;
+    within && coverage.first_seen_m(y as usize * columns + x as usize).is_some()
+}
