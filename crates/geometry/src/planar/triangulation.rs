@@ -1,6 +1,6 @@
 //! Constrained Delaunay triangulation of a region (\[Mos15\] 3.6.4, 4.3.1).
 //!
-//! 1. Corners become points, edges become constraints. One that another forbids, because they cross
+//! 1. Corners, on the lattice of overlays, become points, edges become constraints. One that another forbids, because they cross
 //!    in an input that is no result of an overlay, is left out.
 //! 2. Triangles that hang together without crossing a constraint are one patch; a patch is inside if
 //!    the centre of its largest triangle is. So one test of membership decides for many triangles.
@@ -37,6 +37,14 @@ pub struct Triangulation {
 
 type Cdt = ConstrainedDelaunayTriangulation<SpadePoint<f64>>;
 
+/// Corners are taken to the lattice of overlays, in whole steps: their results cross nowhere there,
+/// while rounding to metres could make a corner cross an edge that it lies on.
+const STEPS_PER_M: f64 = 1e6;
+
+fn metres(point: &SpadePoint<f64>) -> Point2 {
+    Point2::new(point.x / STEPS_PER_M, point.y / STEPS_PER_M)
+}
+
 impl Triangulation {
     /// Triangulates the inside of a region; one without an inside has no triangle.
     ///
@@ -45,24 +53,32 @@ impl Triangulation {
     /// decide exactly.
     pub fn of<T: Copy>(region: &Region<T>) -> Result<Self, PlanarError> {
         let mut cdt = Cdt::new();
+        let mut refused_edges = 0;
         for ring in &region.rings {
             let mut handles = Vec::with_capacity(ring.points.len());
             for point in &ring.points {
                 let refused =
                     |_| PlanarError::Unsnappable { x: point.x, y: point.y, reach_m: REACH_M };
-                handles.push(cdt.insert(SpadePoint::new(point.x, point.y)).map_err(refused)?);
+                let (x, y) = ((point.x * STEPS_PER_M).round(), (point.y * STEPS_PER_M).round());
+                handles.push(cdt.insert(SpadePoint::new(x, y)).map_err(refused)?);
             }
             for (i, &from) in handles.iter().enumerate() {
                 let to = handles[ring.next(i)];
-                if from != to && cdt.can_add_constraint(from, to) {
+                if from == to {
+                    continue;
+                }
+                if cdt.can_add_constraint(from, to) {
                     cdt.add_constraint(from, to);
+                } else {
+                    refused_edges += 1;
                 }
             }
         }
-        Ok(Self::inside(&cdt, region))
+        Ok(Self::inside(&cdt, region, refused_edges > 0))
     }
 
-    fn inside<T: Copy>(cdt: &Cdt, region: &Region<T>) -> Self {
+    /// The triangles inside; one by one where patches may leak.
+    fn inside<T: Copy>(cdt: &Cdt, region: &Region<T>, leaks: bool) -> Self {
         let faces: Vec<FixedFaceHandle<spade::handles::InnerTag>> =
             cdt.inner_faces().map(|face| face.fix()).collect();
         let bound = faces.iter().map(|face| face.index() + 1).max().unwrap_or(0);
@@ -80,7 +96,7 @@ impl Triangulation {
             while let Some(&face) = patch.get(next) {
                 next += 1;
                 for edge in cdt.face(face).adjacent_edges() {
-                    if edge.is_constraint_edge() {
+                    if leaks || edge.is_constraint_edge() {
                         continue;
                     }
                     let Some(over) = edge.rev().face().as_inner() else { continue };
@@ -94,14 +110,14 @@ impl Triangulation {
                 patch.iter().max_by(|a, b| cdt.face(**a).area().total_cmp(&cdt.face(**b).area()));
             let Some(&largest) = largest else { continue };
             let centre = cdt.face(largest).center();
-            if region.contains(&Point2::new(centre.x, centre.y)) {
+            if region.contains(&metres(&centre)) {
                 for &face in &patch {
                     number[face.index()] = Some(kept.len() as u32);
                     kept.push(face);
                 }
             }
         }
-        let points = cdt.vertices().map(|v| Point2::new(v.position().x, v.position().y)).collect();
+        let points = cdt.vertices().map(|v| metres(&v.position())).collect();
         let triangles = kept
             .iter()
             .map(|&face| {

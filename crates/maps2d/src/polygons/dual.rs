@@ -8,6 +8,9 @@ use search::{Graph, Scratch, astar_nearest};
 /// A point so near to a triangle counts as in it, metres: frontier and robot lie on the boundary.
 const AT_M: f64 = 0.05;
 
+/// The robot may stand farther out of its own map than that: poses of its views are corrected.
+const START_M: f64 = 0.5;
+
 /// A way through a side shorter than this costs as if it were as many times longer, metres.
 const NARROW_M: f64 = 0.3;
 
@@ -52,10 +55,11 @@ impl DualGraph {
         }
         // Several of them may lie at one triangle: those are joined directly, too.
         let mut at: Vec<(u32, usize)> = Vec::new();
-        for point in goals.iter().chain([start]) {
+        for (place, point) in goals.iter().chain([start]).enumerate() {
             let node = nodes.len();
             nodes.push(*point);
-            let Some(triangle) = mesh.locate(point, AT_M) else { continue };
+            let slack_m = if place == goals.len() { START_M } else { AT_M };
+            let Some(triangle) = mesh.locate(point, slack_m) else { continue };
             let mut join = |a: usize, b: usize| {
                 let cost = (nodes[a] - nodes[b]).norm();
                 links[a].push(Link { to: b as u32, cost, bend: None });

@@ -95,10 +95,9 @@ enum Gone {
 impl OpenFrontier {
     /// Reads the open frontier off a region. `given_up` are discs, centre and radius, in its frame.
     ///
-    /// Cost: frontier edges times obstacle edges.
+    /// Cost: frontier edges times obstacle edges nearby along x.
     pub fn of(region: &Region<Tag>, params: &OpenParams, given_up: &[(Point2, f64)]) -> Self {
-        let walls: Vec<RegionEdge<Tag>> =
-            region.edges().filter(|edge| edge.label == EdgeLabel::Obstacle).collect();
+        let walls = Walls::of(region);
         let mut found = Self::default();
         let mut ring: Vec<(usize, OpenPart, Interval)> = Vec::new();
         let mut at = 0;
@@ -123,7 +122,7 @@ impl OpenFrontier {
     fn edge(
         &mut self,
         edge: &RegionEdge<Tag>,
-        walls: &[RegionEdge<Tag>],
+        walls: &Walls,
         params: &OpenParams,
         given_up: &[(Point2, f64)],
         ring: &mut Vec<(usize, OpenPart, Interval)>,
@@ -137,7 +136,7 @@ impl OpenFrontier {
             }
         }
         let radius_m = params.wall_closing_m;
-        for wall in walls {
+        for wall in walls.near(edge, radius_m) {
             let far = box_gap(&edge.from, &edge.to, &wall.from, &wall.to) >= radius_m;
             if far || wall.data.vertex == edge.data.vertex {
                 continue;
@@ -206,6 +205,34 @@ impl OpenFrontier {
             ignored_m: slivers + self.wall_m + self.given_up_m,
             places: self.counting().count(),
         }
+    }
+}
+
+/// Obstacle edges by their least x.
+struct Walls {
+    edges: Vec<RegionEdge<Tag>>,
+    /// The widest of them along x, metres.
+    widest_m: f64,
+}
+
+impl Walls {
+    fn of(region: &Region<Tag>) -> Self {
+        let low = |edge: &RegionEdge<Tag>| edge.from.x.min(edge.to.x);
+        let mut edges: Vec<RegionEdge<Tag>> =
+            region.edges().filter(|edge| edge.label == EdgeLabel::Obstacle).collect();
+        edges.sort_by(|a, b| low(a).total_cmp(&low(b)));
+        let widths = edges.iter().map(|edge| (edge.to.x - edge.from.x).abs());
+        let widest_m = widths.fold(0.0, f64::max);
+        Self { edges, widest_m }
+    }
+
+    /// Those that may come within a radius of an edge.
+    fn near(&self, edge: &RegionEdge<Tag>, radius_m: f64) -> &[RegionEdge<Tag>] {
+        let low = |edge: &RegionEdge<Tag>| edge.from.x.min(edge.to.x);
+        let (from, to) = (low(edge) - radius_m, edge.from.x.max(edge.to.x) + radius_m);
+        let first = self.edges.partition_point(|wall| low(wall) + self.widest_m < from);
+        let end = self.edges.partition_point(|wall| low(wall) <= to);
+        self.edges.get(first..end).unwrap_or(&[])
     }
 }
 

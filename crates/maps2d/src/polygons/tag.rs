@@ -1,7 +1,7 @@
 //! Where an edge of a global region comes from.
 
 use geometry::planar::BoundaryKind;
-use geometry::planar::overlay::{EdgeLabel, Region, RingEdge};
+use geometry::planar::overlay::{EdgeLabel, Region, RingEdge, union_all};
 use pose::Se2;
 use probe::VertexId;
 
@@ -43,5 +43,7 @@ const STRAIGHT_M: f64 = 1e-3;
 /// A region without the corners on straight walls; an edge keeps the tag of its first piece.
 pub(super) fn with_straight_walls(region: &Region<Tag>) -> Region<Tag> {
     let solid = |edge: &RingEdge<Tag>| edge.label == EdgeLabel::Obstacle;
-    region.thinned(STRAIGHT_M, |a, b| solid(a) && solid(b))
+    let thinned = region.thinned(STRAIGHT_M, |a, b| solid(a) && solid(b));
+    // Straight edges may cross others that were near: once more through the overlay.
+    union_all(&[&thinned]).map_or(thinned, |united| united.region)
 }
