@@ -36,6 +36,9 @@ pub struct CorrectedPolygons {
     /// What was seen from each vertex, and the volume of it.
     views: IdVec<VertexId, Option<Box<(Samples, LocalVolume)>>>,
     region: Region<Tag>,
+    /// The region without the view from the vertex that was united last, and that vertex: further
+    /// scans there take the place of that view.
+    base: (Region<Tag>, Option<VertexId>),
     open: OpenFrontier,
     given_up: Vec<GivenUp>,
     here: Here,
@@ -50,6 +53,7 @@ impl CorrectedPolygons {
             correction: Correction::new(params.correction),
             views: IdVec::new(),
             region: Region::default(),
+            base: (Region::default(), None),
             open: OpenFrontier::default(),
             given_up: Vec::new(),
             here: Here::new(params.volume),
@@ -89,6 +93,7 @@ impl CorrectedPolygons {
         if let Ok(united) = union_all(&all) {
             self.region = with_straight_walls(&united.region);
         }
+        self.base.1 = None;
         self.measure();
         if Probe::<PolygonEvent<'_>>::on(probe) {
             probe.emit(PolygonEvent::Rebuilt { views: all.len(), region: &self.region });
@@ -112,9 +117,9 @@ impl CorrectedPolygons {
         let view = region_of(vertex, volume, &self.correction.pose(vertex));
         let mut told: Vec<OverlayEvent> = Vec::new();
         let united = if Probe::<PolygonEvent<'_>>::on(probe) {
-            overlay_with(&self.region, &view, Operation::Union, &mut told)
+            overlay_with(&self.base.0, &view, Operation::Union, &mut told)
         } else {
-            overlay_with(&self.region, &view, Operation::Union, &mut probe::Off)
+            overlay_with(&self.base.0, &view, Operation::Union, &mut probe::Off)
         };
         if let Ok(united) = united {
             self.region = with_straight_walls(&united.region);
@@ -164,13 +169,22 @@ impl ExplorationMap for CorrectedPolygons {
         while self.views.next_id() <= vertex {
             self.views.push(None);
         }
+        let known = self.views[vertex].is_some();
         let nothing = || Box::new((Samples::new(), LocalVolume::empty()));
         let view = self.views[vertex].get_or_insert_with(nothing);
         view.0.add(scan, &standing.vertex_from_body);
         view.1 = build(&view.0, &self.params.volume).unwrap_or_else(|_| LocalVolume::empty());
         self.here.scanned(standing, scan, probe);
-        self.unite(vertex, probe);
-        self.measure();
+        if known && self.base.1 != Some(vertex) {
+            // A view that has long been united is changed.
+            self.rebuild(probe);
+        } else {
+            if self.base.1 != Some(vertex) {
+                self.base = (self.region.clone(), Some(vertex));
+            }
+            self.unite(vertex, probe);
+            self.measure();
+        }
         if Probe::<PolygonEvent<'_>>::on(probe) {
             let (region, open) = (&self.region, &self.open);
             probe.emit(PolygonEvent::Settled { standing: vertex, region, open });
@@ -267,6 +281,7 @@ impl ExplorationMap for CorrectedPolygons {
             .sum();
         views
             + self.region.heap_bytes()
+            + self.base.0.heap_bytes()
             + self.correction.heap_bytes()
             + self.here.heap_bytes()
             + self.given_up.len() * size_of::<GivenUp>()
