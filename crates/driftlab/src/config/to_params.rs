@@ -193,7 +193,8 @@ impl Config {
         let insert_occlusion_vertex = map.insert_occlusion_vertex;
         let options = Options { occlusion, insert_occlusion_vertex, thin_m: map.thin_m };
         let (occlusion_gap_m, strict_margin_m) = (map.occlusion_gap_m, map.strict_margin_m);
-        Some(ExtendedParams { volume: VolumeParams { occlusion_gap_m, strict_margin_m, options } })
+        let volume = VolumeParams { occlusion_gap_m, strict_margin_m, options };
+        Some(ExtendedParams { volume, wall_closing_m: map.wall_closing_m })
     }
 
     /// What an optimiser is told of the noise: that of the wheels as the data sheet has it, without
