@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod columns;
+mod depth;
 mod error;
 mod inspect;
 mod layout;
@@ -11,6 +12,7 @@ mod recorder;
 mod recording;
 mod solid;
 
+pub use depth::{DEPTH_EVENTS, DepthRecording, DepthRecordingOptions};
 pub use error::InstrumentError;
 pub use inspect::{
     Difference, EntityInfo, EventCount, Inspection, TimelineInfo, declared_events, diff,

@@ -1,12 +1,14 @@
 //! How a recording opens: its views, and what its text page says.
 
 mod arrange;
+mod depth;
 mod graph;
 mod parts;
 mod solid;
 mod text;
 mod views;
 
+pub(crate) use depth::send_depth;
 pub(crate) use graph::{GraphLook, send_graph};
 pub(crate) use solid::send_solid;
 pub(crate) use text::{about, result};

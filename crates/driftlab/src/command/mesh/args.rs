@@ -4,6 +4,8 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand, ValueEnum};
 
+use super::depth_args::DepthArgs;
+
 #[derive(Debug, Args)]
 pub(in crate::command) struct MeshArgs {
     #[command(subcommand)]
@@ -37,6 +39,20 @@ pub(super) enum MeshCommand {
             driftlab mesh boolean intersection a.off b.off --json"
     )]
     Boolean(BooleanArgs),
+    /// Make the local volume of a depth image: a small, closed, labelled polyhedron
+    #[command(
+        long_about = "Make the local volume of a depth image: a small, closed, labelled polyhedron.\n\n\
+            The image is cropped, its gaps are filled at the far distance, it is triangulated, \
+            reduced, labelled and joined to the camera. Faces are obstacle or frontier: over missing \
+            data, across depth gaps, and towards the camera. Distances are those of the measured \
+            points from the plane of their face, and along their rays.",
+        after_help = "Examples:\n  \
+            driftlab mesh polyhedron depth.png --camera 525,525,319.5,239.5 --vertices 684 -o view.ply\n  \
+            driftlab mesh polyhedron depth.png --depth-scale 5000 --reduce least-squares --vertices 113\n  \
+            driftlab mesh polyhedron office.pcd --error 0.02 --conservative 0.05 --json\n  \
+            driftlab mesh polyhedron depth.png --vertices 113 --ladder 10306,2060,684 --record a.rrd"
+    )]
+    Polyhedron(PolyhedronArgs),
     /// Take faces out of a mesh, within an error
     #[command(
         long_about = "Take faces out of a mesh, within an error.\n\n\
@@ -130,4 +146,19 @@ pub(super) struct InfoArgs {
     pub(super) file: PathBuf,
     #[command(flatten)]
     pub(super) input: MeshInput,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct PolyhedronArgs {
+    #[command(flatten)]
+    pub(super) depth: DepthArgs,
+    /// Write the polyhedron: .ply, .obj, .stl or .off
+    #[arg(short, long, value_name = "OUT")]
+    pub(super) output: Option<PathBuf>,
+    /// Write a recording of every stage
+    #[arg(long, value_name = "FILE.rrd")]
+    pub(super) record: Option<PathBuf>,
+    /// Replace files that are there already
+    #[arg(long)]
+    pub(super) force: bool,
 }

@@ -5,9 +5,12 @@
 
 mod args;
 mod boolean;
+mod depth_args;
+mod depth_input;
 mod info;
 mod input;
 mod output;
+mod polyhedron;
 mod reduce;
 mod told;
 
@@ -22,5 +25,6 @@ pub(super) fn mesh(args: &MeshArgs, out: &Out) -> Result<(), Failure> {
         MeshCommand::Boolean(args) => boolean::boolean(args, out),
         MeshCommand::Reduce(args) => reduce::reduce(args, out),
         MeshCommand::Info(args) => info::info(args, out),
+        MeshCommand::Polyhedron(args) => polyhedron::polyhedron(args, out),
     }
 }

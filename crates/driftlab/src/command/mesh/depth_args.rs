@@ -1,0 +1,161 @@
+//! What can be typed about a depth image and its reduction.
+
+use std::path::PathBuf;
+use std::str::FromStr;
+
+use clap::{Args, ValueEnum};
+use maps3d::ViewOptions;
+use maps3d::image::PrepareOptions;
+use maps3d::reduce::{Contribution, HoleMethod, InverseDepth, Method, ReduceOptions, Stop};
+use maps3d::triangulate::Occlusion;
+
+/// What happens to points of a cloud that share a place.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum DuplicatesName {
+    /// The cloud is refused
+    Refuse,
+    /// They are missing
+    Missing,
+}
+
+/// How vertices are chosen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum MethodName {
+    /// Remove what is nearest to the centroid of its neighbours
+    Centroid,
+    /// Remove what is nearest to the plane of its neighbours, along its normal
+    LeastSquares,
+    /// The same, with distances along the optical axis, as the thesis does
+    LeastSquaresVertical,
+    /// Collapse edges by error quadrics
+    Quadric,
+    /// Insert where faces are worst, judged in metres over inverse depth
+    InverseDepth,
+}
+
+impl MethodName {
+    /// The name, as it is typed.
+    pub fn name(self) -> String {
+        self.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
+    }
+}
+
+/// How holes are triangulated.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum HoleName {
+    /// Ear clipping, shortest diagonal first
+    EarClipping,
+    /// Least total length of diagonals
+    OptimalEdgeLength,
+    /// Partition into monotone polygons, as the thesis does
+    Monotone,
+    /// Constrained Delaunay
+    ConstrainedDelaunay,
+}
+
+#[derive(Debug, Args)]
+pub(in crate::command) struct DepthArgs {
+    /// The depth image: PNG of 16 bits, PGM, TIFF, PCD, PLY, or floats without a header as .raw
+    pub(super) depth: PathBuf,
+    /// Focal lengths and centre of the camera, pixels [default: a Kinect's; of clouds, fitted]
+    #[arg(
+        long,
+        value_name = "FX,FY,CX,CY",
+        value_parser = numbers::<f64, 4>,
+        allow_hyphen_values = true
+    )]
+    pub(super) camera: Option<[f64; 4]>,
+    /// Units of the file per metre [default: 1000; 1 for .raw]; clouds are in metres
+    #[arg(long, value_name = "UNITS")]
+    pub(super) depth_scale: Option<f64>,
+    /// Columns and rows of floats without a header
+    #[arg(long, value_name = "COLUMNS,ROWS", value_parser = numbers::<usize, 2>)]
+    pub(super) size: Option<[usize; 2]>,
+    /// What happens to points of a cloud that share a place
+    #[arg(long, value_enum, default_value = "refuse")]
+    pub(super) duplicates: DuplicatesName,
+    /// Pixels cut off on each side
+    #[arg(long, value_name = "N", default_value_t = 0)]
+    pub(super) crop: usize,
+    /// Depth at which missing data is placed, metres
+    #[arg(long, value_name = "M", default_value_t = 8.0)]
+    pub(super) far: f64,
+    /// Readings beyond this depth are missing, metres
+    #[arg(long, value_name = "M")]
+    pub(super) max: Option<f64>,
+    /// Take faces across depth gaps for surfaces, as the thesis does, instead of frontier
+    #[arg(long)]
+    pub(super) no_occlusion: bool,
+    /// A face is frontier when more than this share of what it covers is
+    #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
+    pub(super) frontier_share: f64,
+    /// How to reduce; nothing is reduced without --vertices or --error
+    #[arg(long, value_name = "METHOD", value_enum, default_value = "inverse-depth")]
+    pub(super) reduce: MethodName,
+    /// Reduce to so many vertices
+    #[arg(long, value_name = "N", conflicts_with = "error")]
+    pub(super) vertices: Option<usize>,
+    /// Reduce as far as no vertex that is removed contributes more, or with inverse-depth as far as no
+    /// pixel is farther from its face, metres
+    #[arg(long, value_name = "M")]
+    pub(super) error: Option<f64>,
+    /// How holes are triangulated
+    #[arg(long, value_name = "METHOD", value_enum, default_value = "ear-clipping")]
+    pub(super) hole: HoleName,
+    /// Let the reduced volume reach at most so far beyond the measured one, metres
+    #[arg(long, value_name = "M")]
+    pub(super) conservative: Option<f64>,
+    /// Show the mesh at these numbers of vertices in the recording
+    #[arg(long, value_name = "N,N,...", value_delimiter = ',')]
+    pub(super) ladder: Vec<usize>,
+    /// Leave the surface open, not joined to the camera
+    #[arg(long)]
+    pub(super) open: bool,
+}
+
+/// So many numbers with commas between.
+fn numbers<T: FromStr, const N: usize>(text: &str) -> Result<[T; N], String> {
+    let numbers: Option<Vec<T>> = text.split(',').map(|word| word.trim().parse().ok()).collect();
+    let numbers = numbers.and_then(|numbers| numbers.try_into().ok());
+    numbers.ok_or_else(|| format!("expected {N} numbers with commas between"))
+}
+
+impl DepthArgs {
+    /// The options of all stages.
+    pub fn options(&self) -> ViewOptions {
+        let hole = match self.hole {
+            HoleName::EarClipping => HoleMethod::EarClipping,
+            HoleName::OptimalEdgeLength => HoleMethod::OptimalEdgeLength,
+            HoleName::Monotone => HoleMethod::Monotone,
+            HoleName::ConstrainedDelaunay => HoleMethod::ConstrainedDelaunay,
+        };
+        let removal = |contribution| Method::Removal { contribution, hole };
+        let method = match self.reduce {
+            MethodName::Centroid => removal(Contribution::Centroid),
+            MethodName::LeastSquares => removal(Contribution::LeastSquares),
+            MethodName::LeastSquaresVertical => removal(Contribution::LeastSquaresVertical),
+            MethodName::Quadric => Method::Quadric,
+            MethodName::InverseDepth => Method::InverseDepth(InverseDepth::default()),
+        };
+        let stop = match (self.vertices, self.error) {
+            (Some(count), _) => Some(Stop::Vertices(count)),
+            (None, Some(error_m)) => Some(Stop::Error(error_m)),
+            (None, None) => None,
+        };
+        ViewOptions {
+            prepare: PrepareOptions {
+                crop: self.crop,
+                far_m: self.far,
+                max_m: self.max.unwrap_or(f64::INFINITY),
+            },
+            occlusion: (!self.no_occlusion).then(Occlusion::default),
+            frontier_share: self.frontier_share,
+            reduce: stop.map(|stop| ReduceOptions {
+                conservative_m: self.conservative,
+                ladder: self.ladder.clone(),
+                ..ReduceOptions::new(method, stop)
+            }),
+            open: self.open,
+        }
+    }
+}

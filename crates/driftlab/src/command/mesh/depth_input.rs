@@ -1,0 +1,70 @@
+//! Reading a depth image or an organised cloud.
+
+use std::path::Path;
+use std::time::Instant;
+
+use anyhow::anyhow;
+use formats::depth_file::{self, DepthFile, DepthFileOptions};
+use maps3d::image::{CloudOptions, Duplicates, depth_image_of};
+use sensing::{Camera, DepthImage};
+
+use super::super::failure::Failure;
+use super::super::out::Out;
+use super::depth_args::{DepthArgs, DuplicatesName};
+
+/// The focal length of the first Kinect, pixels, for an image of 640 columns.
+const KINECT_FOCAL_PX: f64 = 525.0;
+
+/// Reads the file; also how long it took.
+pub(super) fn depth(args: &DepthArgs, out: &Out) -> Result<(DepthImage, f64), Failure> {
+    let start = Instant::now();
+    let path = &args.depth;
+    let bytes = std::fs::read(path).map_err(|error| {
+        Failure::Input(anyhow!("{}: {error}; expected a depth image", path.display()))
+    })?;
+    let extension = path.extension().and_then(|extension| extension.to_str());
+    let options = DepthFileOptions {
+        units_per_metre: args.depth_scale.unwrap_or(default_scale(path)),
+        size: args.size,
+    };
+    let input =
+        |error: &dyn std::fmt::Display| Failure::Input(anyhow!("{}: {error}", path.display()));
+    let file = depth_file::read(&bytes, extension, &options).map_err(|e| input(&e))?;
+    let camera = args.camera.map(|[fx, fy, cx, cy]| Camera::new(fx, fy, cx, cy));
+    let image = match file {
+        DepthFile::Image(pixels) => {
+            let camera = camera.unwrap_or_else(|| {
+                let f = KINECT_FOCAL_PX * pixels.columns as f64 / 640.0;
+                let middle = |side: usize| (side as f64 - 1.0) / 2.0;
+                let (cx, cy) = (middle(pixels.columns), middle(pixels.rows));
+                out.note(&format!("warning: no --camera: a Kinect's is taken, {f},{f},{cx},{cy}"));
+                Camera::new(f, f, cx, cy)
+            });
+            DepthImage::new(pixels.columns, camera, pixels.depths_m)
+        }
+        DepthFile::Cloud(cloud) => {
+            let duplicates = match args.duplicates {
+                DuplicatesName::Refuse => Duplicates::Refuse,
+                DuplicatesName::Missing => Duplicates::Missing,
+            };
+            let options = CloudOptions { duplicates, ..CloudOptions::default() };
+            let image = depth_image_of(cloud.columns, &cloud.points_in_sensor, camera, &options)
+                .map_err(|e| input(&e))?;
+            if args.camera.is_none() {
+                let Camera { fx, fy, cx, cy } = image.camera;
+                out.detail(&format!("the camera of the cloud: {fx:.2},{fy:.2},{cx:.2},{cy:.2}"));
+            }
+            image
+        }
+    };
+    Ok((image, start.elapsed().as_secs_f64()))
+}
+
+/// Floats are metres, whole numbers millimetres.
+fn default_scale(path: &Path) -> f64 {
+    let extension = path.extension().and_then(|extension| extension.to_str());
+    let floats = extension.is_some_and(|e| {
+        ["raw", "f32", "bin", "dat"].iter().any(|raw| e.eq_ignore_ascii_case(raw))
+    });
+    if floats { 1.0 } else { 1000.0 }
+}
