@@ -147,3 +147,35 @@ fn a_mesh_is_reduced_within_the_error_and_recorded() {
         assert!(all.contains(variant), "{variant} in {all}");
     }
 }
+
+#[test]
+fn tetrahedralize_fills_a_mesh_and_refuses_by_name() {
+    let folder = tempfile::tempdir().expect("a folder");
+    fs::write(folder.path().join("cube.off"), cube(0.0)).expect("it is written");
+    let told = json_of(
+        &["mesh", "tetrahedralize", "cube.off", "-o", "cube.vtk", "--record", "cube.rrd"],
+        folder.path(),
+    );
+    assert_eq!((&told["input_faces"], &told["preserved_faces"]), (&12.into(), &12.into()));
+    assert_eq!(told["vertices"], 8);
+    assert!(told["tetrahedra"].as_u64() >= Some(5) && told["steiner_points"].is_number());
+    let volume = told["volume_m3"].as_f64().expect("a number");
+    assert!((volume - 1.0).abs() < 1e-12 && told["secs"].is_number());
+    let written = fs::read_to_string(folder.path().join("cube.vtk")).expect("it was written");
+    assert!(written.contains("UNSTRUCTURED_GRID"));
+    let seen = json_of(&["inspect", "cube.rrd"], folder.path()).to_string();
+    for name in ["Inserted", "Triangulated", "Classified", "Finished"] {
+        assert!(seen.contains(name), "no {name} in {seen}");
+    }
+
+    let open = cube(0.0).replace("8 6 12", "8 5 12").replace("4 1 5 7 3\n", "");
+    fs::write(folder.path().join("open.off"), open).expect("it is written");
+    let output = driftlab()
+        .args(["mesh", "tetrahedralize", "open.off"])
+        .current_dir(folder.path())
+        .output()
+        .expect("it runs");
+    assert_eq!(output.status.code(), Some(2));
+    let message = String::from_utf8_lossy(&output.stderr);
+    assert!(message.contains("is open: face"), "{message}");
+}

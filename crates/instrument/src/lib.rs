@@ -22,4 +22,4 @@ pub use optimisation::{DrawnPose, OPTIMIZER_EVENTS, OptimisationOptions, Optimis
 pub use options::{Centre, Every, Family, Level, MapOptions, RecordingOptions};
 pub use recorder::{Recorder, StepEnd};
 pub use recording::Recording;
-pub use solid::{BooleanRecording, ReduceRecording, SolidOptions};
+pub use solid::{BooleanRecording, ReduceRecording, SolidOptions, TetrahedraRecording};

@@ -6,7 +6,9 @@
 mod boolean;
 mod reduce;
 mod stage;
+mod tetrahedra;
 
 pub use boolean::BooleanRecording;
 pub use reduce::ReduceRecording;
 pub use stage::SolidOptions;
+pub use tetrahedra::TetrahedraRecording;

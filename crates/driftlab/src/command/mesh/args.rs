@@ -26,6 +26,19 @@ pub(super) enum MeshCommand {
             driftlab mesh info part.stl --json"
     )]
     Info(InfoArgs),
+    /// Fill a closed mesh with tetrahedra that keep its faces
+    #[command(
+        long_about = "Fill a closed mesh with tetrahedra that keep its faces.\n\n\
+            Every face and its label stay; vertices do not move. Points are added inside only, and only \
+            where flips do not do. A complex with hole points, or --enclosed, fills all that cannot be \
+            reached from outside; otherwise what is behind an odd number of faces. Input that is open or \
+            meets itself is refused, naming the faces.",
+        after_help = "Examples:\n  \
+            driftlab mesh tetrahedralize map.ply -o map.vtk\n  \
+            driftlab mesh tetrahedralize part.stl --json\n  \
+            driftlab mesh tetrahedralize view.ply --record view.rrd"
+    )]
+    Tetrahedralize(TetrahedralizeArgs),
     /// Unite, intersect or subtract two closed meshes
     #[command(
         long_about = "Unite, intersect or subtract two closed meshes.\n\n\
@@ -156,6 +169,26 @@ pub(super) struct PolyhedronArgs {
     #[arg(short, long, value_name = "OUT")]
     pub(super) output: Option<PathBuf>,
     /// Write a recording of every stage
+    #[arg(long, value_name = "FILE.rrd")]
+    pub(super) record: Option<PathBuf>,
+    /// Replace files that are there already
+    #[arg(long)]
+    pub(super) force: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct TetrahedralizeArgs {
+    /// The mesh: PLY, OBJ, STL, OFF, .node, .poly or .smesh
+    pub(super) file: PathBuf,
+    #[command(flatten)]
+    pub(super) input: MeshInput,
+    /// Where to write the tetrahedra: .vtk or .mesh (MEDIT)
+    #[arg(short, long, value_name = "OUT")]
+    pub(super) output: Option<PathBuf>,
+    /// Fill all that cannot be reached from outside without passing a face
+    #[arg(long)]
+    pub(super) enclosed: bool,
+    /// Record every step for the Rerun viewer
     #[arg(long, value_name = "FILE.rrd")]
     pub(super) record: Option<PathBuf>,
     /// Replace files that are there already

@@ -1,4 +1,4 @@
-//! `driftlab mesh`: meshes, told about, combined and reduced.
+//! `driftlab mesh`: meshes, told about, combined, reduced and filled with tetrahedra.
 //!
 //! One file for each subcommand; `input.rs` and `output.rs` read and write for all of them, `told.rs`
 //! says what is said of every mesh.
@@ -12,6 +12,7 @@ mod input;
 mod output;
 mod polyhedron;
 mod reduce;
+mod tetrahedralize;
 mod told;
 
 pub(super) use args::MeshArgs;
@@ -26,5 +27,6 @@ pub(super) fn mesh(args: &MeshArgs, out: &Out) -> Result<(), Failure> {
         MeshCommand::Reduce(args) => reduce::reduce(args, out),
         MeshCommand::Info(args) => info::info(args, out),
         MeshCommand::Polyhedron(args) => polyhedron::polyhedron(args, out),
+        MeshCommand::Tetrahedralize(args) => tetrahedralize::tetrahedralize(args, out),
     }
 }

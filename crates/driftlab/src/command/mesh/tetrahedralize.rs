@@ -1,0 +1,134 @@
+//! `driftlab mesh tetrahedralize`: a mesh filled with tetrahedra.
+
+use std::path::{Path, PathBuf};
+use std::time::Instant;
+
+use anyhow::anyhow;
+use formats::mesh::{TetrahedraFile, write_medit, write_vtk};
+use instrument::{SolidOptions, TetrahedraRecording};
+use serde_json::json;
+use solid::tetrahedra::{Inside, tetrahedralize_in};
+use solid::{SolidError, Tetrahedra};
+
+use super::super::failure::Failure;
+use super::super::files::{free, write_whole};
+use super::super::graph::numbers::{listed, shown};
+use super::super::out::Out;
+use super::args::TetrahedralizeArgs;
+use super::input;
+
+pub(super) fn tetrahedralize(args: &TetrahedralizeArgs, out: &Out) -> Result<(), Failure> {
+    let target = args.output.as_deref().map(|path| Target::new(path, args.force)).transpose()?;
+    if let Some(record) = &args.record {
+        free(record, args.force)?;
+    }
+    let read = input::mesh(&args.file, args.input.weld, out)?;
+    let holes = &read.file.hole_points;
+    let inside = if args.enclosed || !holes.is_empty() {
+        Inside::Enclosed(holes.clone())
+    } else {
+        Inside::Odd
+    };
+    let mut recording = args.record.as_deref().map(|path| record(path, args)).transpose()?;
+    let start = Instant::now();
+    let found = match &mut recording {
+        Some(recording) => tetrahedralize_in(&read.mesh, &inside, recording),
+        None => tetrahedralize_in(&read.mesh, &inside, &mut probe::Off),
+    };
+    let secs = start.elapsed().as_secs_f64();
+    let found = found.map_err(|error| refused(&error, args))?;
+    if found.tetrahedra.is_empty() {
+        return Err(Failure::Input(anyhow!(
+            "{}: found no space that its faces enclose, expected a closed mesh",
+            args.file.display()
+        )));
+    }
+    let mut json = json!({
+        "vertices": read.mesh.vertices().len(),
+        "input_faces": read.mesh.faces().len(),
+        "preserved_faces": found.boundary.len(),
+        "tetrahedra": found.tetrahedra.len(),
+        "steiner_points": found.steiner_points,
+        "volume_m3": found.volume_m3(),
+        "secs": secs,
+        "secs_read": read.secs,
+    });
+    if let Some(recording) = recording {
+        recording.finish(&json).map_err(Failure::work)?;
+    }
+    if let Some(target) = &target {
+        target.write(&found)?;
+    }
+    json["file"] = args.file.display().to_string().into();
+    json["output"] = args.output.as_ref().map(|path| path.display().to_string()).into();
+    json["recording"] = args.record.as_ref().map(|path| path.display().to_string()).into();
+    let rows = [
+        ("vertices", format!("{}, {} added", read.mesh.vertices().len(), found.steiner_points)),
+        ("faces", format!("{} of {} kept", found.boundary.len(), read.mesh.faces().len())),
+        ("tetrahedra", found.tetrahedra.len().to_string()),
+        ("volume", format!("{} m3", shown(found.volume_m3()))),
+        ("seconds", format!("read {:.4}, tetrahedralize {secs:.4}", read.secs)),
+    ];
+    out.result(&json, &listed(&rows))
+}
+
+fn record(path: &Path, args: &TetrahedralizeArgs) -> Result<TetrahedraRecording, Failure> {
+    let file = args.file.file_name().unwrap_or_default().to_string_lossy();
+    let options = SolidOptions {
+        path: path.to_owned(),
+        name: "tetrahedra".into(),
+        about: format!("The tetrahedra of `{file}`."),
+    };
+    TetrahedraRecording::create(&options).map_err(Failure::work)
+}
+
+/// What is wrong with the input is bad input; the rest is work that failed.
+fn refused(error: &SolidError, args: &TetrahedralizeArgs) -> Failure {
+    let path = args.file.display();
+    match error {
+        SolidError::NoVolume { .. } => Failure::Input(anyhow!(
+            "{path}: found {error}; expected a closed mesh whose faces meet at common edges and corners only"
+        )),
+        SolidError::Coplanar { .. } | SolidError::OutsideEnvelope { .. } => {
+            Failure::Input(anyhow!("{path}: {error}"))
+        }
+        other => Failure::Work(anyhow!("{path}: {other}")),
+    }
+}
+
+/// A file that will be written: checked before the work starts.
+struct Target {
+    path: PathBuf,
+    write: fn(&TetrahedraFile<'_>) -> Vec<u8>,
+}
+
+impl Target {
+    fn new(path: &Path, force: bool) -> Result<Self, Failure> {
+        let extension = path.extension().and_then(|extension| extension.to_str());
+        let write: fn(&TetrahedraFile<'_>) -> Vec<u8> =
+            match extension.map(str::to_ascii_lowercase).as_deref() {
+                Some("vtk") => write_vtk,
+                Some("mesh") => write_medit,
+                _ => {
+                    return Err(Failure::Input(anyhow!(
+                        "{}: found no known extension, expected .vtk or .mesh",
+                        path.display()
+                    )));
+                }
+            };
+        free(path, force)?;
+        Ok(Self { path: path.to_owned(), write })
+    }
+
+    fn write(&self, found: &Tetrahedra) -> Result<(), Failure> {
+        let faces: Vec<_> = found.boundary.iter().map(|face| face.corners).collect();
+        let labels: Vec<_> = found.boundary.iter().map(|face| face.label).collect();
+        let file = TetrahedraFile {
+            vertices: &found.vertices,
+            tetrahedra: &found.tetrahedra,
+            faces: &faces,
+            labels: &labels,
+        };
+        write_whole(&self.path, &(self.write)(&file))
+    }
+}
