@@ -31,11 +31,14 @@ fn open(folder: &std::path::Path, name: &str) -> (MeshFile, Polyhedron) {
     (file, mesh)
 }
 
+/// A file with its vertices, faces, whether it is closed, manifold, intersects itself, its volume.
+type Known = (&'static str, usize, usize, bool, bool, bool, Option<f64>);
+
 #[test]
 fn every_mesh_is_read_and_the_sound_ones_are_found_sound() {
     let Some(folder) = folder() else { return };
     // Name, vertices, polygons, closed, 2-manifold, self-intersecting, volume.
-    let known: [(&str, usize, usize, bool, bool, bool, Option<f64>); 18] = [
+    let known: [Known; 18] = [
         ("clean/cube.off", 8, 6, true, true, false, Some(4.0)),
         // Its faces 593 and 732 cross; rational arithmetic says so, too.
         ("clean/cow.off", 2762, 5520, true, true, true, Some(0.05348)),

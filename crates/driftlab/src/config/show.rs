@@ -10,8 +10,8 @@ use super::schema::{Property, is_variant_table, properties, property_at, resolve
 use super::{
     ActiveAreaMap, CavesWorld, Config, CorrectedPolygonsMap, CorridorWorld, ExtendedMap,
     GridCorrectedMap, GridMap, ImageWorld, Loaded, MapServerWorld, MazeWorld, MovingAiWorld,
-    Origin, PaperWorld, PillarsWorld, PolygonsWorld, RapidPlanner, RelativeMap, RoomsWorld, RunSweep, Start,
-    SurveyPlanner, ThesisWorld,
+    Origin, PaperWorld, PillarsWorld, PolygonsWorld, RapidPlanner, RelativeMap, RoomsWorld,
+    RunSweep, Start, SurveyPlanner, ThesisWorld,
 };
 
 /// The resolved config as TOML, each value with its origin as a comment.

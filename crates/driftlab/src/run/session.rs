@@ -6,8 +6,8 @@ use std::time::Instant;
 use instrument::{InstrumentError, Recorder};
 
 use super::{
-    Experiment, Fan, Input, MapRun, MetricsReport, Provenance, StepRow, TimingReport,
-    VERSION, drive, provenance::GIT_HASH, report, start_recording, to_parquet,
+    Experiment, Fan, Input, MapRun, MetricsReport, Provenance, StepRow, TimingReport, VERSION,
+    drive, provenance::GIT_HASH, report, start_recording, to_parquet,
 };
 use crate::table::TableError;
 

@@ -42,7 +42,7 @@ pub fn adversarial() -> impl Strategy<Value = DepthImage> {
                             0 => 2.0,
                             1 => 1.0 + 0.1 * c + 0.2 * r,
                             2 => {
-                                if (c as u32 + r as u32) % 2 == 0 {
+                                if (c as u32 + r as u32).is_multiple_of(2) {
                                     1.0
                                 } else {
                                     7.0
