@@ -50,7 +50,7 @@ fn info_names_what_is_wrong_and_where() {
     fs::write(folder.path().join("open.off"), open).expect("it is written");
     let told = json_of(&["mesh", "info", "open.off"], folder.path());
     assert_eq!(told["closed"], false);
-    assert_eq!(told["defects"][0], "edge 1-3 is open: face 0");
+    assert_eq!(told["defects"][0], "edge 1-3 is open: face 1");
 
     fs::write(folder.path().join("bad.off"), "OFF\n1 1 0\n0 0 0\n3 0 1 2\n")
         .expect("it is written");
