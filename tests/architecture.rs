@@ -170,7 +170,8 @@ fn citations(text: &str) -> BTreeSet<String> {
         let letters = key.trim_end_matches(|c: char| c.is_ascii_digit());
         key.len() == letters.len() + 2
             && letters.starts_with(|c: char| c.is_ascii_uppercase())
-            && letters.len() >= 3
+            // Longer ones are types: [AtomicU64].
+            && (3..=5).contains(&letters.len())
             && letters.chars().all(|c| c.is_ascii_alphabetic())
     };
     inside.map(|(key, _)| key.trim_end_matches('\\')).filter(is_key).map(str::to_owned).collect()

@@ -318,7 +318,7 @@ mod tests {
             told(format!("{HEAD}DATA ascii\n1 7 2 3\n")),
             "line 13, column 1: found the end of the file after 1 points, expected 2 points"
         );
-        assert_eq!(told(format!("{HEAD}DATA binary\nshort")).split(':').next(), Some("byte 144"));
+        assert_eq!(told(format!("{HEAD}DATA binary\nshort")).split(':').next(), Some("byte 143"));
         assert!(told(HEAD.replace("x rgb", "q rgb") + "DATA ascii\n").contains("0 fields x"));
         assert!(told(HEAD.replace("WIDTH 2", "WIDTH -2")).contains("`-2`"));
         assert!(told(HEAD.replace("POINTS 2", "POINTS 3") + "DATA ascii\n").contains("3 POINTS"));

@@ -158,8 +158,11 @@ mod tests {
         let mut log = Vec::new();
         for t in 0..before.tets.len() as u32 {
             let tet = *mesh.tet(t);
+            if !tet.is_live() || tet.is_ghost() {
+                continue;
+            }
             let far = *mesh.tet(tet.n[0] >> 2);
-            if !tet.is_live() || tet.is_ghost() || far.is_ghost() {
+            if far.is_ghost() {
                 continue;
             }
             let [x, y, z] = tet.face(0);
