@@ -89,7 +89,9 @@ fn a_square_is_optimised_and_written() {
         "termination",
         "secs_read",
         "secs_init",
+        "cpu_secs_init",
         "secs_optimize",
+        "cpu_secs_optimize",
         "rejected_edges",
         "certificate",
     ] {
@@ -101,6 +103,9 @@ fn a_square_is_optimised_and_written() {
     let chi2 = done["chi2"].as_f64().expect("a number");
     assert!(0.1 < chi2 && chi2 < 0.25, "{chi2}");
     assert!(done["chi2_initial"].as_f64() > Some(0.9));
+    // Where the start is chosen by trials, the optimisation is told apart from them.
+    let chosen = desk.json(&["optimize", "square.g2o"]);
+    assert!(chosen["secs_optimize"].as_f64() > Some(0.0), "{chosen}");
     // From its own output nothing is left to do.
     let again = desk.json(&["optimize", "out.g2o", "--init", "file"]);
     assert!((again["chi2_initial"].as_f64().expect("a number") - chi2).abs() < 1e-12);

@@ -22,6 +22,7 @@ use super::input;
 use super::numbers::{listed, shown};
 use super::output::{self, Target};
 use super::start::{self, Solved};
+use super::stopwatch::Spent;
 
 pub(super) fn optimize(args: &OptimizeArgs, out: &Out) -> Result<(), Failure> {
     let target = args.output.as_deref().map(|path| Target::new(path, args.to, args.force));
@@ -50,7 +51,7 @@ pub(super) fn optimize(args: &OptimizeArgs, out: &Out) -> Result<(), Failure> {
         "seconds",
         format!(
             "read {secs_read:.4}, start {:.4}, optimise {:.4}",
-            done.secs_init, done.secs_optimize
+            done.init_time.secs, done.optimize_time.secs
         ),
     ));
     out.result(&json, &listed(&rows))?;
@@ -81,8 +82,8 @@ impl Dimension<6> for Se3 {
 struct Done {
     json: Value,
     rows: Vec<(&'static str, String)>,
-    secs_init: f64,
-    secs_optimize: f64,
+    init_time: Spent,
+    optimize_time: Spent,
     failure: Option<Failure>,
 }
 
@@ -233,8 +234,10 @@ fn tell<P: Dimension<D>, const D: usize>(
     certificate: Option<&Certified>,
     args: &OptimizeArgs,
 ) -> Done {
-    let Solved { solution, init, secs_init, secs_optimize, .. } = solved;
-    let (secs_init, secs_optimize) = (*secs_init, *secs_optimize);
+    let Solved { solution, init, init_time, optimize_time, .. } = solved;
+    let (init_time, optimize_time) = (*init_time, *optimize_time);
+    // Of several threads only one would be counted.
+    let alone = args.threads <= 1;
     let report = &solution.report;
     let log_cost = chi2(graph, &solution.poses, ErrorKind::Log);
     let sesync_cost = sesync_cost(graph, &solution.poses);
@@ -270,8 +273,10 @@ fn tell<P: Dimension<D>, const D: usize>(
         "termination_value": value,
         "termination_threshold": threshold,
         "converged": converged,
-        "secs_init": secs_init,
-        "secs_optimize": secs_optimize,
+        "secs_init": init_time.secs,
+        "secs_optimize": optimize_time.secs,
+        "cpu_secs_init": alone.then_some(init_time.cpu_secs),
+        "cpu_secs_optimize": alone.then_some(optimize_time.cpu_secs),
         "rejected_edges": rejected,
         "noise_scale": doubts.map(|doubts| doubts.noise_scale),
         "gate": doubts.map(|doubts| doubts.gate),
@@ -332,5 +337,5 @@ fn tell<P: Dimension<D>, const D: usize>(
         }
         _ => None,
     };
-    Done { json, rows, secs_init, secs_optimize, failure }
+    Done { json, rows, init_time, optimize_time, failure }
 }
