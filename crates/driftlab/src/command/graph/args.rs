@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use clap::builder::PossibleValue;
 use clap::{Args, Subcommand, ValueEnum};
 
 #[derive(Debug, Args)]
@@ -86,29 +87,28 @@ pub(super) enum SolverName {
     Dogleg,
 }
 
-/// How wrong loop closures are dealt with.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub(super) enum Robust {
-    /// Every edge is believed
-    None,
-    /// Huber's loss
-    Huber,
-    /// Cauchy's loss
-    Cauchy,
-    /// Geman and McClure's loss
-    GemanMcclure,
-    /// Truncated least squares
-    Tls,
-    /// Graduated non-convexity towards truncated least squares: finds wrong closures best
-    GncTls,
-    /// Graduated non-convexity towards Geman and McClure's loss
-    GncGm,
-    /// Dynamic covariance scaling
-    Dcs,
-    /// Switchable constraints
-    Switchable,
-    /// The largest set of closures that agree in pairs
-    Pcm,
+/// How wrong loop closures are dealt with, as the library names it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Robust(pub(super) posegraph::Robust);
+
+const METHODS: [Robust; posegraph::Robust::ALL.len()] = {
+    let mut methods = [Robust(posegraph::Robust::None); posegraph::Robust::ALL.len()];
+    let mut at = 0;
+    while at < methods.len() {
+        methods[at] = Robust(posegraph::Robust::ALL[at]);
+        at += 1;
+    }
+    methods
+};
+
+impl ValueEnum for Robust {
+    fn value_variants<'a>() -> &'a [Self] {
+        &METHODS
+    }
+
+    fn to_possible_value(&self) -> Option<PossibleValue> {
+        Some(PossibleValue::new(self.0.name()).help(self.0.about()))
+    }
 }
 
 #[derive(Debug, Args)]

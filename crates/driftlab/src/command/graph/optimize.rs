@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 
 use super::super::failure::Failure;
 use super::super::out::Out;
-use super::args::{OptimizeArgs, Robust, SolverName};
+use super::args::{OptimizeArgs, SolverName};
 use super::input;
 use super::numbers::{listed, shown};
 use super::output::{self, Target};
@@ -108,10 +108,8 @@ fn solve<P: Dimension<D>, const D: usize>(
         None => None,
     };
     let solved = match &mut recording {
-        Some(recording) => {
-            start::solve(&graph, args.init, robust(args.robust), &options, recording)
-        }
-        None => start::solve(&graph, args.init, robust(args.robust), &options, &mut probe::Off),
+        Some(recording) => start::solve(&graph, args.init, args.robust.0, &options, recording),
+        None => start::solve(&graph, args.init, args.robust.0, &options, &mut probe::Off),
     };
     out.detail(&format!("started from {}", solved.init));
     let solution = &solved.solution;
@@ -173,22 +171,6 @@ fn certified<P: Rigid<D>, const D: usize>(
         found.reason
     );
     Certified { json, text }
-}
-
-fn robust(name: Robust) -> posegraph::Robust {
-    use posegraph::Robust as Method;
-    match name {
-        Robust::None => Method::None,
-        Robust::Huber => Method::Huber,
-        Robust::Cauchy => Method::Cauchy,
-        Robust::GemanMcclure => Method::GemanMcClure,
-        Robust::Tls => Method::Tls,
-        Robust::GncTls => Method::GncTls,
-        Robust::GncGm => Method::GncGm,
-        Robust::Dcs => Method::Dcs,
-        Robust::Switchable => Method::Switchable,
-        Robust::Pcm => Method::Pcm,
-    }
 }
 
 fn record<'a, P: Dimension<D>, const D: usize>(
