@@ -18,12 +18,6 @@ use crate::config::{OutlierSweep, SyntheticGraph};
 use crate::run::Input;
 use crate::table::Cell;
 
-/// A map is right up to this share of its extent.
-const RIGHT: f64 = 0.01;
-
-/// Precision and recall of the rejected closures are right from here.
-const NAMED: f64 = 0.95;
-
 /// A graph file that is not what it should be.
 #[derive(Debug, thiserror::Error)]
 #[error("{}: {reason}", path.display())]
@@ -187,13 +181,9 @@ fn space(graph: FactorGraph<Se3, 6>) -> Clean {
     Clean::Space(graph, poses)
 }
 
-/// One method on one graph with wrong closures.
+/// One method on one graph with wrong closures, judged as [`posegraph::synthetic::Judgement`] says.
 ///
-/// `rmse` is the root mean square distance of positions to the optimum without wrong closures, as a
-/// share of the longest side of its bounding box; both hold the first vertex. `precision` is the
-/// share of wrong closures among the rejected, `recall` that of rejected closures among the wrong;
-/// each is 1 where there are none to share. `noise_scale` is the variance of the errors in units of
-/// what the information matrices say.
+/// `noise_scale` is the variance of the errors in units of what the information matrices say.
 fn judged<P: Rigid<D>, const D: usize>(
     graph: &FactorGraph<P, D>,
     clean: &[P],
@@ -206,16 +196,12 @@ fn judged<P: Rigid<D>, const D: usize>(
     let start = odometry(&made.graph);
     let found = optimize_robust(&made.graph, &start, method, &Options::default(), &mut Off);
     let secs = began.elapsed().as_secs_f64();
-    let hits = found.rejected.iter().filter(|k| made.wrong.binary_search(k).is_ok()).count() as f64;
-    let of = |count: usize| if count == 0 { 1.0 } else { hits / count as f64 };
-    let (precision, recall) = (of(found.rejected.len()), of(made.wrong.len()));
-    let rmse = rmse(&found.solution.poses, clean);
-    let success = rmse <= RIGHT && precision >= NAMED && recall >= NAMED;
+    let judgement = made.judge(&found, clean);
     let results = vec![
-        ("success".to_owned(), success.into()),
-        ("rmse".to_owned(), rmse.into()),
-        ("precision".to_owned(), precision.into()),
-        ("recall".to_owned(), recall.into()),
+        ("success".to_owned(), judgement.success().into()),
+        ("rmse".to_owned(), judgement.rmse.into()),
+        ("precision".to_owned(), judgement.precision.into()),
+        ("recall".to_owned(), judgement.recall.into()),
         ("wrong".to_owned(), (made.wrong.len() as u64).into()),
         ("rejected".to_owned(), (found.rejected.len() as u64).into()),
         ("noise_scale".to_owned(), found.noise_scale.into()),
@@ -223,24 +209,4 @@ fn judged<P: Rigid<D>, const D: usize>(
     ];
     let timing = vec![("secs".to_owned(), secs.into())];
     Outcome { results: vec![results], timing: vec![timing], curves: vec![] }
-}
-
-/// Distance of positions as a share of the extent, first poses laid onto each other.
-fn rmse<P: Rigid<D>, const D: usize>(found: &[P], clean: &[P]) -> f64 {
-    let at = |pose: &P| pose.columns()[P::DIM];
-    let (mut low, mut high) = ([f64::INFINITY; 3], [f64::NEG_INFINITY; 3]);
-    let mut sum = 0.0;
-    let Some(turn) = found.first().zip(clean.first()).map(|(a, b)| b.compose(&a.inverse())) else {
-        return 0.0;
-    };
-    for (found, clean) in found.iter().zip(clean) {
-        let (found, clean) = (at(&turn.compose(found)), at(clean));
-        for k in 0..P::DIM {
-            low[k] = low[k].min(clean[k]);
-            high[k] = high[k].max(clean[k]);
-            sum += (found[k] - clean[k]).powi(2);
-        }
-    }
-    let extent = (0..P::DIM).map(|k| high[k] - low[k]).fold(0.0, f64::max);
-    (sum / clean.len() as f64).sqrt() / extent
 }
