@@ -11,6 +11,7 @@ use rerun::{EntityPath, LineStrips2D, RecordingStream};
 
 use super::points::{positions, rounded};
 use super::send::{Column, fixed, lengths};
+use super::sleeve::Sleeve;
 use super::{Now, Rgba, Times, send};
 use crate::InstrumentError;
 
@@ -26,6 +27,10 @@ pub(crate) struct Lines {
     shows_any: bool,
     /// Strips of one colour that lie no farther apart are joined, metres.
     joint_m: f32,
+    /// Points are left out where the line passes them by no more than this, metres.
+    straight_m: f32,
+    /// The straight line at the end of what was written.
+    sleeve: Sleeve,
     /// Radius and draw order, until they are sent.
     look: Option<(f32, f32)>,
 }
@@ -42,6 +47,8 @@ impl Lines {
             row_ends: Vec::new(),
             shows_any: false,
             joint_m: 0.0,
+            straight_m: 0.0,
+            sleeve: Sleeve::at([0.0; 2]),
             look: Some((radius, draw_order)),
         }
     }
@@ -49,6 +56,12 @@ impl Lines {
     /// The same, but strips that lie no farther apart are joined, metres: each costs its border.
     pub fn joining(self, joint_m: f32) -> Self {
         Self { joint_m, ..self }
+    }
+
+    /// The same, but points are left out where the line passes them by no more than this, metres:
+    /// a wall is seen by dozens of rays, and drawn by two points.
+    pub fn straightening(self, straight_m: f32) -> Self {
+        Self { straight_m, ..self }
     }
 
     /// Adds a strip to the row being written; one that starts where the last one of the same
@@ -68,11 +81,24 @@ impl Lines {
         } else {
             self.xy.extend(first);
             self.colours.push(colour);
+            self.sleeve = Sleeve::at(first);
         }
         for point in points {
-            self.xy.extend([rounded(point.x), rounded(point.y)]);
+            self.point([rounded(point.x), rounded(point.y)]);
         }
         self.strip_ends.push((self.xy.len() / 2) as i32);
+    }
+
+    /// Adds a point to the strip being written.
+    fn point(&mut self, next: [f32; 2]) {
+        let end = self.xy.len();
+        if self.straight_m > 0.0 {
+            let last = [self.xy[end - 2], self.xy[end - 1]];
+            if self.sleeve.take(last, next, self.straight_m) {
+                self.xy.truncate(end - 2);
+            }
+        }
+        self.xy.extend(next);
     }
 
     /// Adds a straight line to the row being written.

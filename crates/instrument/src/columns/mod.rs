@@ -6,6 +6,7 @@ mod numbers;
 mod points;
 mod poses;
 mod send;
+mod sleeve;
 mod texts;
 mod tiles;
 mod times;

@@ -16,6 +16,14 @@ use crate::palette;
 /// Closed parts shorter than this are drawn as what is next to them, metres.
 const BITS_M: f64 = 0.05;
 
+/// Lines are drawn straight where they pass what they stand for by no more than this, metres.
+/// Recordings of large places are a tenth as large for it.
+const STRAIGHT_M: f32 = 0.01;
+
+/// At `summary`, the edges of so many volumes are drawn, the nearest along the graph; the frontier of all.
+/// Where a robot has been often, hundreds see the same walls, and each row would hold them all.
+const VOLUMES_AT_SUMMARY: usize = 40;
+
 /// Rows of `belief/..`.
 pub(super) struct Belief {
     pub(super) obstacle: Lines,
@@ -43,6 +51,7 @@ impl Belief {
     pub fn new(name: &str, eye_follows: bool) -> Self {
         let edges = |label: &str, radius: f32, order: f32| {
             Lines::new(format!("{name}/belief/edges/{label}"), radius, order)
+                .straightening(STRAIGHT_M)
         };
         Self {
             free: edges("free", -0.7, 10.0).joining(BITS_M as f32),
@@ -76,13 +85,24 @@ impl Belief {
             }
         }
         self.volumes_in_scope = 0;
+        let most = if keep_rows { usize::MAX } else { VOLUMES_AT_SUMMARY };
         // By vertex, not by distance: rows then repeat long stretches of the row before.
-        let mut vertices: Vec<_> = map.scope().placed().iter().map(|row| row.vertex).collect();
+        let mut vertices: Vec<_> = map
+            .scope()
+            .placed()
+            .iter()
+            .enumerate()
+            .map(|(i, row)| (row.vertex, i < most))
+            .collect();
         vertices.sort_unstable();
-        for vertex in vertices {
+        for (vertex, is_near) in vertices {
             if let Some(state) = map.volume(vertex) {
+                let belief_from_volume = places.of(vertex);
                 self.volumes_in_scope += 1;
-                self.volume(state, &places.of(vertex), map.params().sliver_m);
+                self.left(state, &belief_from_volume, map.params().sliver_m);
+                if is_near {
+                    self.known(state, &belief_from_volume);
+                }
             }
         }
         for lines in self.edge_lines() {
@@ -102,7 +122,8 @@ impl Belief {
         ]
     }
 
-    fn volume(&mut self, state: &VolumeState, belief_from_volume: &Se2, sliver_m: f64) {
+    /// Draws what a volume knows: obstacles, and frontier that was closed.
+    fn known(&mut self, state: &VolumeState, belief_from_volume: &Se2) {
         let place = |p: &Point2| belief_from_volume.transform(p);
         for edge in &state.volume.obstacles {
             self.obstacle.segment(&place(&edge.from), &place(&edge.to), palette::OBSTACLE);
@@ -130,6 +151,11 @@ impl Belief {
                 lines.segment(&place(&from), &place(&to), palette::of_cause(cause));
             }
         }
+    }
+
+    /// Draws the frontier that a volume has left.
+    fn left(&mut self, state: &VolumeState, belief_from_volume: &Se2, sliver_m: f64) {
+        let place = |p: &Point2| belief_from_volume.transform(p);
         for chain in &state.chains {
             let counts = chain.length_m >= sliver_m;
             let (lines, colour) = if counts {
