@@ -146,6 +146,19 @@ pub trait ExplorationMap {
     /// The way to the nearest frontier, or `None` if none is left that can be reached.
     fn route(&mut self, standing: &Standing, clearance_m: f64) -> Option<Route>;
 
+    /// The way to the nearest frontier of a vertex that `comes_now`, or `None` if there is none.
+    ///
+    /// A map whose frontier belongs to no vertex leads to the nearest of all.
+    fn route_to(
+        &mut self,
+        standing: &Standing,
+        clearance_m: f64,
+        comes_now: &dyn Fn(VertexId) -> bool,
+    ) -> Option<Route> {
+        let _ = comes_now;
+        self.route(standing, clearance_m)
+    }
+
     /// Length of the frontier that counts at a vertex, metres; 0 means that a way to it is not worth
     /// going on with.
     fn frontier_at(&self, vertex: VertexId) -> f64;

@@ -198,6 +198,15 @@ impl ExplorationMap for Side {
         self.timed(|map| map.route(standing, clearance_m))
     }
 
+    fn route_to(
+        &mut self,
+        standing: &Standing,
+        clearance_m: f64,
+        comes_now: &dyn Fn(VertexId) -> bool,
+    ) -> Option<Route> {
+        self.timed(|map| map.route_to(standing, clearance_m, comes_now))
+    }
+
     fn frontier_at(&self, vertex: VertexId) -> f64 {
         self.inner.frontier_at(vertex)
     }

@@ -4,13 +4,17 @@
 //! How a run comes to its end: a goal is given up when it is reached and still there; when no motion
 //! towards it keeps even the least clearance, from where it was seen or from another place; and when
 //! the robot has acted for longer than going there takes, and nothing new was left or gone, or went
-//! for the same goal again and again (`patience`). A goal that is given up takes the frontier around it out of the count for good. New
-//! frontier comes only from new views, so in a bounded place that comes to an end; and whatever a map
-//! answers, the step limit ends the run as not complete.
+//! for the same goal again and again (`patience`). A goal that is given up takes the frontier around it
+//! out of the count for good. Every part of a place is allowed so many actions, and again as many
+//! when nothing is left elsewhere, a few times over; then what it still has left is given up
+//! (`haunts`). Parts lie a step from each other where places are recognised, so a bounded place has
+//! finitely many of them, and a run comes to its end for certain. Without recognition drift may found ever
+//! new ones: then the step limit ends the run, as not complete.
 
 mod approach;
 mod behind;
 mod drive;
+mod haunts;
 mod look;
 mod patience;
 mod react;
@@ -24,6 +28,7 @@ use sensing::Robot;
 use crate::{ExploreProbe, Explorer};
 
 use behind::{Behind, Served};
+use haunts::Haunts;
 use patience::Patience;
 use react::Pursuit;
 
@@ -38,6 +43,8 @@ pub(crate) struct Memory {
     pub served: Option<Served>,
     /// How long the robot goes on while nothing changes.
     pub patience: Patience,
+    /// Where the robot has acted so often that other places come first.
+    pub haunts: Haunts,
     /// The goal of the last move.
     pub pursuit: Option<Pursuit>,
     /// How often the robot was sent to a vertex, and what it had left when it was sent last.
@@ -55,6 +62,10 @@ impl Explorer {
             return;
         }
         if self.follow_way(robot, &params, probe) || self.go_behind(robot, &params, probe) {
+            return;
+        }
+        self.rapid.haunts.acted(self.standing.vertex);
+        if self.leave_haunt(robot, &params, probe) {
             return;
         }
         // Giving goals up may leave nothing in view; each round closes some, so this ends.

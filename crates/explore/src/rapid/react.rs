@@ -31,6 +31,12 @@ impl Explorer {
         probe: &mut dyn ExploreProbe,
     ) -> bool {
         self.change_state(State::Reactive, probe);
+        if self.rapid.haunts.is_spent(self.standing.vertex) {
+            for candidate in candidates {
+                self.give_up(&candidate.goals_in_body[0], GiveUp::NothingNew, params, probe);
+            }
+            return false;
+        }
         let in_vain = self.rapid.in_vain == Some(self.standing.vertex);
         let motion = if in_vain { None } else { self.choose(candidates, params, probe) };
         let Some(motion) = motion else {

@@ -18,11 +18,45 @@ impl Explorer {
     ) {
         self.change_state(State::Deliberate, probe);
         let least_m = params.clearances_m.first().copied().unwrap_or(0.0);
-        let Some(route) = self.maps[0].route(&self.standing, least_m) else {
+        let Some(route) = self.route_now(least_m) else {
             self.finish(Ending::Complete, probe);
             return;
         };
         self.take_route(robot, route, params, probe);
+    }
+
+    /// Where others come before this place: on the way to the nearest of them, if there is any.
+    pub(super) fn leave_haunt(
+        &mut self,
+        robot: &mut dyn Robot,
+        params: &RapidParams,
+        probe: &mut dyn ExploreProbe,
+    ) -> bool {
+        let here = self.standing.vertex;
+        if !self.rapid.haunts.can_wait(here) || self.rapid.haunts.is_spent(here) {
+            return false;
+        }
+        let least_m = params.clearances_m.first().copied().unwrap_or(0.0);
+        let Some(route) = self.route_now(least_m) else { return false };
+        if !self.rapid.haunts.can_wait(here) || self.rapid.haunts.is_spent(here) {
+            // Nothing is left elsewhere, so this place has its turn again.
+            return false;
+        }
+        self.change_state(State::Deliberate, probe);
+        self.take_route(robot, route, params, probe);
+        true
+    }
+
+    /// The way to the nearest frontier whose turn it is; places get further turns where it is none's.
+    fn route_now(&mut self, clearance_m: f64) -> Option<Route> {
+        loop {
+            let haunts = &self.rapid.haunts;
+            let comes_now = |vertex| !haunts.can_wait(vertex) || haunts.is_spent(vertex);
+            let route = self.maps[0].route_to(&self.standing, clearance_m, &comes_now);
+            if route.is_some() || !self.rapid.haunts.relent() {
+                return route;
+            }
+        }
     }
 
     pub(super) fn take_route(

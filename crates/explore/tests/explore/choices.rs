@@ -2,6 +2,8 @@
 
 use explore::{Ending, GiveUp, RapidParams};
 use geometry::{Point2, Vector2};
+use maps2d::Route;
+use probe::VertexId;
 use proptest::prelude::*;
 
 use super::heard::Told;
@@ -168,5 +170,17 @@ fn a_cycle_that_leaves_more_behind_each_time_ends() {
     map.out_of_view_m = |scans| f64::from(scans / 5);
     let played = play(map, RapidParams::default());
     assert_eq!(played.heard.given_up(), [GiveUp::NothingNew]);
+    assert_eq!(played.ending, Some(Ending::Complete));
+}
+
+#[test]
+fn a_place_that_is_never_done_does_not_keep_the_robot_from_others() {
+    let elsewhere = VertexId(0);
+    let mut map = fleeing();
+    map.out_of_view_m = f64::from;
+    map.routes = [Route::Repeat(vec![(elsewhere, 1.0)])].into();
+    let played = play(map, RapidParams::default());
+    let left = played.robot.commands.iter().position(|c| *c == Command::Repeat(elsewhere));
+    assert!(left.is_some_and(|at| at < 200), "{left:?}");
     assert_eq!(played.ending, Some(Ending::Complete));
 }

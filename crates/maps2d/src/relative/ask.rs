@@ -75,8 +75,13 @@ impl RelativeMap {
         state.volume.motion_clearance(&standing.vertex_from_body.transform(to_in_body))
     }
 
-    /// The way along the graph to the nearest vertex with frontier that counts (\[ISRR19\] 5).
-    pub(super) fn way_to_frontier(&mut self, standing: &Standing) -> Option<Route> {
+    /// The way along the graph to the nearest vertex with frontier that counts (\[ISRR19\] 5), of
+    /// those that come now.
+    pub(super) fn way_to_frontier(
+        &mut self,
+        standing: &Standing,
+        comes_now: &dyn Fn(VertexId) -> bool,
+    ) -> Option<Route> {
         if self.totals.places == 0 {
             return None;
         }
@@ -85,6 +90,7 @@ impl RelativeMap {
         let way =
             self.scratch.way_to_nearest(&self.skeleton, standing.vertex, far_m, |vertex| {
                 volumes.get(vertex).and_then(Option::as_deref).is_some_and(VolumeState::counts)
+                    && comes_now(vertex)
             })?;
         Some(Route::Repeat(way))
     }

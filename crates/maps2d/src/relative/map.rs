@@ -203,7 +203,16 @@ impl ExplorationMap for RelativeMap {
     }
 
     fn route(&mut self, standing: &Standing, _clearance_m: f64) -> Option<Route> {
-        self.way_to_frontier(standing)
+        self.way_to_frontier(standing, &|_| true)
+    }
+
+    fn route_to(
+        &mut self,
+        standing: &Standing,
+        _clearance_m: f64,
+        comes_now: &dyn Fn(VertexId) -> bool,
+    ) -> Option<Route> {
+        self.way_to_frontier(standing, comes_now)
     }
 
     fn frontier_at(&self, vertex: VertexId) -> f64 {

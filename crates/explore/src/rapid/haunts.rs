@@ -1,0 +1,145 @@
+//! Places where the robot has acted so often that others come first.
+
+use pose::Se2;
+use posegraph::PoseGraph;
+use probe::{EdgeId, IdVec, VertexId};
+
+/// Actions at one haunt before all other places come first.
+const ACTIONS: u32 = 40;
+
+/// How often that is doubled once no other place has frontier left. Then the place is spent.
+const DOUBLINGS: u32 = 2;
+
+/// The neighbourhoods that vertices lie in, and how often the robot has acted in each.
+///
+/// A squeeze between furniture can keep the robot busy for ever: every look leaves slivers that count,
+/// and going for them yields the next look. Then places elsewhere, where there is ground to gain,
+/// must not wait. A haunt is a vertex and those within a step of it *by the graph*, so there is
+/// no global frame here either. Cost: the edges of a new vertex.
+#[derive(Clone, Debug, Default)]
+pub(crate) struct Haunts {
+    /// By vertex: its haunt, and where it lies in the frame of the vertex that founded that.
+    of: IdVec<VertexId, (usize, Se2)>,
+    actions: Vec<u32>,
+    doubled: u32,
+}
+
+impl Haunts {
+    /// Takes in a vertex with its edges: into the nearest haunt no farther away than `radius_m`, or a
+    /// new one.
+    pub fn found(&mut self, graph: &PoseGraph, vertex: VertexId, edges: &[EdgeId], radius_m: f64) {
+        let near = edges.iter().filter_map(|edge| {
+            let (neighbour, vertex_from_neighbour) = graph.edge(*edge).from_end(vertex);
+            let (haunt, founder_from_neighbour) = *self.of.get(neighbour)?;
+            Some((haunt, founder_from_neighbour * vertex_from_neighbour.inverse()))
+        });
+        let nearest = near
+            .map(|(haunt, founder_from_vertex)| {
+                (founder_from_vertex.translation.norm(), haunt, founder_from_vertex)
+            })
+            .filter(|(distance_m, ..)| *distance_m <= radius_m)
+            .min_by(|a, b| a.0.total_cmp(&b.0).then(a.1.cmp(&b.1)));
+        let entry = nearest.map_or_else(
+            || {
+                self.actions.push(0);
+                (self.actions.len() - 1, Se2::identity())
+            },
+            |(_, haunt, founder_from_vertex)| (haunt, founder_from_vertex),
+        );
+        self.of.push(entry);
+    }
+
+    /// Counts an action of the robot at a vertex.
+    pub fn acted(&mut self, vertex: VertexId) {
+        if let Some((haunt, _)) = self.of.get(vertex) {
+            self.actions[*haunt] += 1;
+        }
+    }
+
+    /// Whether other places come before this one.
+    pub fn can_wait(&self, vertex: VertexId) -> bool {
+        self.of
+            .get(vertex)
+            .is_some_and(|(haunt, _)| self.actions[*haunt] >= ACTIONS << self.doubled)
+    }
+
+    /// Whether what is left here is to be given up: it had its turn, and its turn after all others.
+    pub fn is_spent(&self, vertex: VertexId) -> bool {
+        self.doubled == DOUBLINGS && self.can_wait(vertex)
+    }
+
+    /// Nothing is left elsewhere: every place gets as much again; false where it has had it all.
+    pub fn relent(&mut self) -> bool {
+        let may = self.doubled < DOUBLINGS;
+        self.doubled += u32::from(may);
+        may
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use posegraph::EdgeKind;
+
+    use super::*;
+
+    /// A chain of vertices this far apart, each haunted as the last one says.
+    fn chain(count: usize, apart_m: f64, radius_m: f64) -> (PoseGraph, Haunts) {
+        let (mut graph, mut haunts) = (PoseGraph::new(), Haunts::default());
+        for i in 0..count {
+            let vertex = graph.add_vertex();
+            let edges: Vec<EdgeId> = (i > 0)
+                .then(|| {
+                    let step = Se2::new(apart_m, 0.0, 0.0);
+                    graph
+                        .add_edge(VertexId(i as u32 - 1), vertex, step, EdgeKind::Odometry)
+                        .unwrap()
+                })
+                .into_iter()
+                .collect();
+            haunts.found(&graph, vertex, &edges, radius_m);
+        }
+        (graph, haunts)
+    }
+
+    fn act(haunts: &mut Haunts, vertex: u32, times: u32) {
+        (0..times).for_each(|_| haunts.acted(VertexId(vertex)));
+    }
+
+    #[test]
+    fn vertices_within_the_radius_of_the_first_share_a_haunt() {
+        let (_, mut haunts) = chain(6, 0.4, 1.0);
+        // 0, 0.4 and 0.8 m; then 1.2, 1.6 and 2.0 m.
+        act(&mut haunts, 1, ACTIONS);
+        let waiting: Vec<bool> = (0..6).map(|v| haunts.can_wait(VertexId(v))).collect();
+        assert_eq!(waiting, [true, true, true, false, false, false]);
+    }
+
+    #[test]
+    fn a_recognised_place_brings_a_vertex_into_its_haunt() {
+        let (mut graph, mut haunts) = chain(4, 2.0, 1.0);
+        let vertex = graph.add_vertex();
+        let far = graph.add_edge(VertexId(3), vertex, Se2::new(2.0, 0.0, 0.0), EdgeKind::Odometry);
+        let near = graph.add_edge(VertexId(0), vertex, Se2::new(0.5, 0.0, 1.0), EdgeKind::Place);
+        haunts.found(&graph, vertex, &[far.unwrap(), near.unwrap()], 1.0);
+        act(&mut haunts, vertex.0, ACTIONS);
+        assert!(haunts.can_wait(VertexId(0)) && !haunts.can_wait(VertexId(3)));
+    }
+
+    #[test]
+    fn every_place_gets_as_much_again_when_nothing_is_left_elsewhere_and_then_is_spent() {
+        let (_, mut haunts) = chain(2, 2.0, 1.0);
+        let here = VertexId(0);
+        let mut acted = 0;
+        loop {
+            while !haunts.can_wait(here) {
+                haunts.acted(here);
+                acted += 1;
+            }
+            assert_eq!(haunts.is_spent(here), acted == ACTIONS << DOUBLINGS);
+            if !haunts.relent() {
+                break;
+            }
+        }
+        assert!(haunts.is_spent(here) && !haunts.is_spent(VertexId(1)));
+    }
+}
