@@ -4,7 +4,7 @@ use geometry::planar::{Interval, box_gap};
 use pose::Se2;
 use probe::VertexId;
 
-use super::walls::{ROUNDING_M, spans_along_walls, spans_given_up};
+use super::walls::{ROUNDING_M, WallRule, spans_along_walls, spans_given_up};
 use super::{Cause, Certainty, Closing, ConsolidationEvent, RelativeMap, VolumeState};
 use crate::MapProbe;
 use crate::volume::LocalVolume;
@@ -128,13 +128,12 @@ impl RelativeMap {
                     spans_inside(&state, &other.volume, &poses, clipped, &mut spans);
                     self.work.placements = poses;
                 }
-                Cause::Wall => spans_along_walls(
-                    &state,
-                    &other.volume,
-                    &at_from_against,
-                    self.params.wall_closing_m,
-                    &mut spans,
-                ),
+                Cause::Wall => {
+                    let rows = self.scope.placed();
+                    let odometry_m = rows[target].odometry_m + rows[source].odometry_m;
+                    let rule = WallRule::over(odometry_m, &self.params);
+                    spans_along_walls(&state, &other.volume, &at_from_against, rule, &mut spans);
+                }
                 Cause::Unreachable => {
                     spans_given_up(&state, &other.given_up, &at_from_against, &mut spans);
                 }

@@ -40,7 +40,7 @@ use probe::VertexId;
 use super::incremental::Changed;
 use super::pair::{placements, spans_inside};
 use super::state::disc_around;
-use super::walls::spans_along_walls;
+use super::walls::{WallRule, spans_along_walls};
 use super::{Cause, Closing, ConsolidationEvent, RelativeMap, VolumeState};
 use crate::MapProbe;
 
@@ -172,8 +172,8 @@ impl RelativeMap {
             if !helper.blocked {
                 spans_inside(state, &helper.volume, &poses, &mut clipped, &mut spans);
             }
-            let wall_m = self.params.wall_closing_m;
-            spans_along_walls(state, &helper.volume, &of_from_helper, wall_m, &mut spans);
+            let rule = WallRule::over(placed.odometry_m, &self.params);
+            spans_along_walls(state, &helper.volume, &of_from_helper, rule, &mut spans);
             for &(edge, span) in &spans {
                 opened.clear();
                 state.ledgers[edge].close(span, &reason, &mut opened);
