@@ -8,14 +8,14 @@ use super::flips::Work;
 use super::gate::{Inside, Sound, admit};
 use super::mesh::NONE;
 use super::order::brio;
-use super::recover::{commit, conform};
+use super::recover::{PLANS, commit, conform};
 use super::result::{BoundaryFace, Tetrahedra};
 use crate::{Point3, Polyhedron, SolidError};
 
 /// Corners of the box round the input.
 const BOX: usize = 8;
-/// How often all free points are tried to be removed.
-const REMOVALS: usize = 2;
+/// The rounds in which all free points are tried to be removed, and whether with all effort.
+const REMOVALS: [bool; 4] = [false, false, true, true];
 
 /// The tetrahedra of a closed polyhedron; see [`Tetrahedra`] for what holds.
 ///
@@ -56,12 +56,8 @@ pub fn tetrahedralize_in(
     if sound.faces.is_empty() {
         return Ok(Tetrahedra { vertices: mesh.vertices().to_vec(), ..Tetrahedra::default() });
     }
-    let (mut work, rank_of) = triangulate(&sound, probe)?;
-    let missing = conform(&mut work, probe);
-    if !missing.is_empty() {
-        return Err(SolidError::NoRoom { faces: missing });
-    }
-    clear_boundary(&mut work, probe)?;
+    let (start, rank_of) = triangulate(&sound, probe)?;
+    let mut work = keep_faces(&start, probe)?;
     remove_steiner(&mut work, BOX + sound.points.len(), probe);
     let is_inside = work.classify(inside);
     if probe.on() {
@@ -110,37 +106,73 @@ fn triangulate(
     }
     let count = points.len();
     let (mesh, _) = delaunay_of(points, probe).ok_or(SolidError::Coplanar { points: count })?;
-    let mut work = Work { mesh, ..Work::default() };
-    let mut facets = Vec::with_capacity(sound.faces.len());
+    let mut start = Work { mesh, ..Work::default() };
     for &(corners, face) in &sound.faces {
-        let corners = corners.map(|place| rank_of[place as usize]);
-        facets.push(corners);
-        work.must.add(corners, face);
+        start.must.add(corners.map(|place| rank_of[place as usize]), face);
     }
-    probe.emit(TetrahedraEvent::Triangulated {
-        mesh: (&work.mesh).into(),
-        box_corners: BOX,
-        facets: &facets,
-    });
-    Ok((work, rank_of))
+    Ok((start, rank_of))
 }
 
-/// Takes all points off the boundary that were put there for the time being.
+/// Makes all faces appear, with no point on them that the input does not have: by one plan after the
+/// other, each from the start.
+fn keep_faces(
+    start: &Work,
+    probe: &mut impl for<'a> Probe<TetrahedraEvent<'a>>,
+) -> Result<Work, SolidError> {
+    let mut faces = Vec::new();
+    for plan in &PLANS {
+        let mut work = start.clone();
+        if probe.on() {
+            let facets: Vec<[u32; 3]> = work.must.facets.iter().map(|f| f.corners).collect();
+            probe.emit(TetrahedraEvent::Triangulated {
+                mesh: (&work.mesh).into(),
+                box_corners: BOX,
+                facets: &facets,
+            });
+        }
+        faces = conform(&mut work, plan, probe);
+        if faces.is_empty() {
+            faces = clear_boundary(&mut work, probe);
+            if faces.is_empty() {
+                return Ok(work);
+            }
+        }
+    }
+    Err(SolidError::NoRoom { faces })
+}
+
+/// Takes all points off the boundary that were put there for the time being; the faces from which none
+/// could be taken, ascending.
 fn clear_boundary(
     work: &mut Work,
     probe: &mut impl for<'a> Probe<TetrahedraEvent<'a>>,
-) -> Result<(), SolidError> {
-    while let Some(split) = work.splits.pop() {
-        let (before, point) = (work.mesh.points.len(), *work.mesh.point(split.vertex));
-        if !work.suppress(&split) {
-            let mut faces: Vec<u32> = split.facets.iter().map(|facet| facet.1).collect();
-            faces.sort_unstable();
-            return Err(SolidError::NoRoom { faces });
+) -> Vec<u32> {
+    loop {
+        let mut kept = Vec::new();
+        let mut splits = std::mem::take(&mut work.splits);
+        let count = splits.len();
+        // The newest first: they divide what older ones made.
+        while let Some(split) = splits.pop() {
+            let (before, point) = (work.mesh.points.len(), *work.mesh.point(split.vertex));
+            if work.suppress(&split) {
+                commit(work, Cause::Suppress, before, probe);
+                probe.emit(TetrahedraEvent::SteinerRemoved { vertex: split.vertex, point });
+            } else {
+                commit(work, Cause::Suppress, before, probe);
+                kept.push(split);
+            }
         }
-        commit(work, Cause::Suppress, before, probe);
-        probe.emit(TetrahedraEvent::SteinerRemoved { vertex: split.vertex, point });
+        kept.reverse();
+        if kept.is_empty() || kept.len() == count {
+            let mut faces: Vec<u32> =
+                kept.iter().flat_map(|split| split.facets.iter().map(|facet| facet.1)).collect();
+            faces.sort_unstable();
+            faces.dedup();
+            work.splits = kept;
+            return faces;
+        }
+        work.splits = kept;
     }
-    Ok(())
 }
 
 /// Removes free points, those from vertex `first` on, where that works.
@@ -149,18 +181,21 @@ fn remove_steiner(
     first: usize,
     probe: &mut impl for<'a> Probe<TetrahedraEvent<'a>>,
 ) {
-    for _ in 0..REMOVALS {
+    for hard in REMOVALS {
         let mut removed = false;
         for v in first as u32..work.mesh.points.len() as u32 {
-            if work.mesh.at[v as usize] == NONE || !work.remove_free(v) {
+            if work.mesh.at[v as usize] == NONE {
                 continue;
             }
-            removed = true;
-            let point = *work.mesh.point(v);
+            let gone = work.remove_free(v, hard);
+            removed |= gone;
             commit(work, Cause::Remove, work.mesh.points.len(), probe);
-            probe.emit(TetrahedraEvent::SteinerRemoved { vertex: v, point });
+            if gone {
+                let point = *work.mesh.point(v);
+                probe.emit(TetrahedraEvent::SteinerRemoved { vertex: v, point });
+            }
         }
-        if !removed {
+        if !removed && hard {
             break;
         }
     }

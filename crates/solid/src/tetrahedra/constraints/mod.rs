@@ -12,4 +12,4 @@ mod walk;
 
 pub(crate) use complex::Constraints;
 pub(crate) use meets::{Meets, meets};
-pub(crate) use walk::First;
+pub(crate) use walk::{First, Way};

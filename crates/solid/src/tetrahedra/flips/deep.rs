@@ -12,6 +12,8 @@ pub(crate) struct Effort {
     pub(crate) ring: usize,
     /// How many removals are tried in one search.
     pub(crate) tries: u32,
+    /// Whether nearly flat tetrahedra may be made.
+    pub(crate) flat: bool,
 }
 
 impl Work {
@@ -57,7 +59,7 @@ impl Work {
             if !self.mesh.ring(t, u, v, effort.ring, &mut ring) {
                 break;
             }
-            if let Some(less) = self.flip_ring(u, v, &ring, goal, gain - sum) {
+            if let Some(less) = self.flip_ring(u, v, &ring, goal, gain - sum, effort.flat) {
                 done = Some(sum + less);
                 break;
             }

@@ -10,6 +10,8 @@ pub(crate) enum Goal {
     Segment([u32; 2]),
     /// This triangle shall become a face: edges that pass it are in the way.
     Facet([u32; 3]),
+    /// An edge shall go, whatever comes: nothing is in the way.
+    Gone,
 }
 
 impl Goal {
@@ -18,7 +20,7 @@ impl Goal {
     pub(crate) fn of_face(&self, mesh: &Mesh, face: [u32; 3]) -> i32 {
         match self {
             Self::Segment(ends) => i32::from(meets(mesh, *ends, face) != Meets::Not),
-            Self::Facet(_) => 0,
+            Self::Facet(_) | Self::Gone => 0,
         }
     }
 
@@ -27,7 +29,7 @@ impl Goal {
     pub(crate) fn of_edge(&self, mesh: &Mesh, u: u32, v: u32) -> i32 {
         match self {
             Self::Facet(corners) => i32::from(meets(mesh, [u, v], *corners) != Meets::Not),
-            Self::Segment(_) => 0,
+            Self::Segment(_) | Self::Gone => 0,
         }
     }
 }

@@ -22,7 +22,7 @@ const WEIGHT: i32 = 1 << 12;
 /// How many flat tetrahedra, of the two with the ends of the edge, the triangle of ring vertices `a`,
 /// `b`, `c` makes; `None` where one of them is not positive.
 #[inline]
-fn spans(mesh: &Mesh, u: u32, v: u32, [a, b, c]: [u32; 3]) -> Option<i32> {
+fn spans(mesh: &Mesh, u: u32, v: u32, [a, b, c]: [u32; 3], may_be_flat: bool) -> Option<i32> {
     let above = mesh.orient(a, b, c, v);
     if above <= 0.0 {
         return None;
@@ -31,10 +31,9 @@ fn spans(mesh: &Mesh, u: u32, v: u32, [a, b, c]: [u32; 3]) -> Option<i32> {
     if below <= 0.0 {
         return None;
     }
-    Some(
-        i32::from(is_flat(mesh, above, [a, b, c, v]))
-            + i32::from(is_flat(mesh, below, [a, b, c, u])),
-    )
+    let flat = i32::from(is_flat(mesh, above, [a, b, c, v]))
+        + i32::from(is_flat(mesh, below, [a, b, c, u]));
+    (flat == 0 || may_be_flat).then_some(flat)
 }
 
 /// Whether a tetrahedron, six times the volume of which is `volume`, is nearly flat for its size.
@@ -74,17 +73,19 @@ impl Work {
         ring: &Ring,
         goal: Goal,
         gain: i32,
+        may_be_flat: bool,
     ) -> Option<i32> {
         let n = ring.vertices.len();
         if n < 3 || !self.may_remove(u, v, ring) {
             return None;
         }
         let mut table = std::mem::take(&mut self.table);
-        let done = self.best_ring(u, v, ring, goal, gain, &mut table);
+        let done = self.best_ring(u, v, ring, goal, gain, may_be_flat, &mut table);
         self.table = table;
         done
     }
 
+    #[expect(clippy::too_many_arguments, reason = "one step of a flip, private")]
     fn best_ring(
         &mut self,
         u: u32,
@@ -92,6 +93,7 @@ impl Work {
         ring: &Ring,
         goal: Goal,
         gain: i32,
+        may_be_flat: bool,
         table: &mut Table,
     ) -> Option<i32> {
         let mesh = &self.mesh;
@@ -120,7 +122,7 @@ impl Work {
                         continue;
                     }
                     let face = [p[i], p[k], p[j]];
-                    let Some(flat) = spans(mesh, u, v, face) else { continue };
+                    let Some(flat) = spans(mesh, u, v, face, may_be_flat) else { continue };
                     let cost = below + flat + WEIGHT * goal.of_face(mesh, face);
                     if cost < best {
                         (best, at) = (cost, k);

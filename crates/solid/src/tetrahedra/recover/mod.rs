@@ -5,14 +5,14 @@
 //! | `present.rs` | which segments and facets are there already |
 //! | `segments.rs` | one missing segment, by flips |
 //! | `facets.rs` | one missing facet, by flips |
-//! | `detour.rs` | one stuck segment, after letting go of a held one for a while |
-//! | `passes.rs` | all of them, with rising effort |
+//! | `plan.rs` | how hard, and in which order |
+//! | `passes.rs` | all of them, and the division of what is stuck |
 
-mod detour;
 mod facets;
 mod passes;
+mod plan;
 mod present;
 mod segments;
 
 pub(crate) use passes::{commit, conform};
-pub(crate) use segments::Attempt;
+pub(crate) use plan::PLANS;

@@ -2,21 +2,17 @@
 
 use probe::Probe;
 
+use super::plan::Plan;
 use super::segments::Attempt;
 use crate::tetrahedra::events::{Cause, TetrahedraEvent};
-use crate::tetrahedra::flips::{Effort, Work};
+use crate::tetrahedra::flips::Work;
 
-/// First the cheap flips for all, which often clear the way of others, then the costly ones for what
-/// is left.
-const EFFORTS: [Effort; 3] = [
-    Effort { depth: 0, ring: 16, tries: 0 },
-    Effort { depth: 1, ring: 24, tries: 60 },
-    Effort { depth: 2, ring: 40, tries: 400 },
-];
-/// After each effort, how many vertices a region to reconnect may have, and how many steps a search.
-const REGIONS: [(usize, u32); 3] = [(12, 100), (16, 200), (20, 300)];
 /// How often constraints are divided, all stuck ones once each.
-const MOST_ROUNDS: usize = 16;
+const MOST_ROUNDS: usize = 60;
+/// How often in a row more may be stuck than before.
+const MOST_GROWTH: usize = 4;
+/// A sweep is repeated where it brought in more than one of so many.
+const WORTH_IT: usize = 8;
 
 /// What a pass works on.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -25,44 +21,46 @@ enum Kind {
     Facets,
 }
 
-/// Makes all segments and facets appear: by flips, by reconnection, with free points, and at last by
-/// dividing what is stuck. Returns the facets of the input that are still missing: none where all went
-/// well.
+/// Makes all segments and facets appear: by flips, and by dividing what is stuck. Returns the facets of
+/// the input that are still missing: none where all went well.
 pub(crate) fn conform(
     work: &mut Work,
+    plan: &Plan,
     probe: &mut impl for<'a> Probe<TetrahedraEvent<'a>>,
 ) -> Vec<u32> {
+    let (mut before, mut growth) = (usize::MAX, 0);
     for round in 0..MOST_ROUNDS {
-        let stuck = pass(work, Kind::Segments, round > 0, probe);
-        if !stuck.is_empty() {
-            let mut divided = false;
-            for id in stuck {
-                let points = work.mesh.points.len();
-                divided |= work.must.segments[id as usize].live && work.split_segment(id);
-                commit(work, Cause::Divide, points, probe);
-            }
-            if !divided {
+        let stuck = pass(work, Kind::Segments, plan, round > 0, probe);
+        growth = if stuck.len() > before { growth + 1 } else { 0 };
+        before = stuck.len();
+        let mut divided = false;
+        if stuck.is_empty() {
+            let stuck = pass(work, Kind::Facets, plan, round > 0, probe);
+            if stuck.is_empty() {
                 break;
             }
-            continue;
+            for id in stuck {
+                let points = work.mesh.points.len();
+                divided |= work.split_facet(id);
+                commit(work, Cause::Divide, points, probe);
+            }
         }
-        let stuck = pass(work, Kind::Facets, round > 0, probe);
-        if stuck.is_empty() {
-            break;
-        }
-        let mut divided = false;
         for id in stuck {
             let points = work.mesh.points.len();
-            divided |= work.split_facet(id);
+            divided |= work.must.segments[id as usize].live && work.split_segment(id);
             commit(work, Cause::Divide, points, probe);
         }
-        if !divided {
+        if !divided || growth >= MOST_GROWTH {
             break;
         }
     }
-    let mut missing = work.missing_facets();
-    for segment in work.missing_segments() {
-        missing.extend(&work.must.segments[segment as usize].faces);
+    let mut missing: Vec<u32> = work
+        .missing_segments()
+        .into_iter()
+        .flat_map(|segment| work.must.segments[segment as usize].faces.clone())
+        .collect();
+    if missing.is_empty() {
+        missing = work.missing_facets();
     }
     let mut inputs: Vec<u32> =
         missing.into_iter().map(|f| work.must.facets[f as usize].input).collect();
@@ -75,44 +73,28 @@ pub(crate) fn conform(
 fn pass(
     work: &mut Work,
     kind: Kind,
+    plan: &Plan,
     again: bool,
     probe: &mut impl for<'a> Probe<TetrahedraEvent<'a>>,
 ) -> Vec<u32> {
     let mut missing = match kind {
         Kind::Segments if again => work.missing_segments(),
         Kind::Segments => work.hold_present_segments(),
-        Kind::Facets if again => work.missing_facets(),
         Kind::Facets => work.hold_present_facets(),
     };
-    for (effort, (most, steps)) in EFFORTS.into_iter().zip(REGIONS) {
-        loop {
+    plan.arrange(&mut missing);
+    for &effort in plan.efforts {
+        while !missing.is_empty() {
             let before = missing.len();
             work.sweep(kind, &mut missing, probe, |work, item| match item {
                 Item::Segment(a, b) => work.recover_segment(a, b, effort) == Attempt::Done,
                 Item::Facet(corners) => work.recover_facet(corners, effort) == Attempt::Done,
             });
-            if missing.is_empty() {
-                return missing;
-            }
-            if missing.len() == before {
+            if (before - missing.len()) * WORTH_IT < before {
                 break;
             }
         }
-        work.sweep(kind, &mut missing, probe, |work, item| match item {
-            Item::Segment(a, b) => work.reconnect_segment(a, b, most, steps),
-            Item::Facet(corners) => work.reconnect_facet(corners, most, steps),
-        });
     }
-    work.sweep(kind, &mut missing, probe, |work, item| match item {
-        Item::Segment(a, b) => {
-            work.recover_segment(a, b, EFFORTS[1]) == Attempt::Done
-                || work.detour(a, b, EFFORTS[1])
-                || work.unlock_segment(a, b)
-        }
-        Item::Facet(corners) => {
-            work.recover_facet(corners, EFFORTS[1]) == Attempt::Done || work.unlock_facet(corners)
-        }
-    });
     missing
 }
 

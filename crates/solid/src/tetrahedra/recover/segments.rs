@@ -52,7 +52,7 @@ impl Work {
             || [(x, y), (y, z), (z, x)]
                 .into_iter()
                 .any(|(u, v)| self.remove_edge(u, v, goal, 1, effort).is_some())
-            || self.flip_face(t, f, goal, 1, true).is_some()
+            || (effort.flat && self.flip_face(t, f, goal, 1, true).is_some())
     }
 
     /// Tries all that the segment meets, from one end to the other.

@@ -1,6 +1,6 @@
 //! Putting a point into a mesh that is not Delaunay.
 
-use crate::tetrahedra::flips::Work;
+use crate::tetrahedra::flips::{Work, is_flat};
 use crate::tetrahedra::mesh::FACE;
 use crate::tetrahedra::predicates::{P3, orient};
 
@@ -9,8 +9,9 @@ const MOST_TETS: usize = 400;
 
 impl Work {
     /// Inserts a new vertex at `p`, which lies in or near one of the tetrahedra `start`: the hole grows
-    /// from them until all its faces see the point strictly from inside. `None`, with nothing changed,
-    /// where that would tear out what must stay, or where the point is a vertex.
+    /// from them until all its faces see the point strictly from inside, and well if that can be.
+    /// `None`, with nothing changed, where that would tear out what must stay, or where the point is a
+    /// vertex.
     pub(crate) fn insert_steiner(&mut self, p: P3, start: &[u32]) -> Option<u32> {
         let first = start.iter().copied().find(|&t| {
             let tet = self.mesh.tet(t);
@@ -20,6 +21,18 @@ impl Work {
                     orient(a, b, c, &p) >= 0.0
                 })
         })?;
+        let vertex = self.mesh.add_point(p);
+        if self.star_in(vertex, first, true) || self.star_in(vertex, first, false) {
+            return Some(vertex);
+        }
+        self.mesh.points.pop();
+        self.mesh.at.pop();
+        None
+    }
+
+    /// Makes a hole round `vertex`, which lies in tetrahedron `first`, and fills it from there; `well`
+    /// where faces that would make nearly flat tetrahedra are to go too.
+    fn star_in(&mut self, vertex: u32, first: u32, well: bool) -> bool {
         let mut hole = vec![first];
         let mut next = 0;
         while next < hole.len() {
@@ -32,23 +45,22 @@ impl Work {
                     continue;
                 }
                 let [x, y, z] = tet.face(f);
-                let seen = {
-                    let [a, b, c] = [x, y, z].map(|v| self.mesh.point(v));
-                    orient(a, b, c, &p) > 0.0
-                };
-                if seen {
+                let volume = self.mesh.orient(x, y, z, vertex);
+                if volume > 0.0 && !(well && is_flat(&self.mesh, volume, [x, y, z, vertex])) {
                     continue;
                 }
                 if self.must.holds_face(x, y, z)
                     || self.mesh.tet(other).is_ghost()
                     || hole.len() >= MOST_TETS
                 {
-                    return None;
+                    if volume > 0.0 {
+                        continue;
+                    }
+                    return false;
                 }
                 hole.push(other);
             }
         }
-        let vertex = self.mesh.add_point(p);
         let mut new = Vec::new();
         for &t in &hole {
             let tet = *self.mesh.tet(t);
@@ -57,18 +69,9 @@ impl Work {
                 new.push([x, y, z, vertex]);
             }
         }
-        let torn = self.tears(&hole, &new, None);
-        let sound = !torn
-            && new.iter().all(|&[x, y, z, _]| {
-                let [a, b, c] = [x, y, z].map(|v| self.mesh.point(v));
-                orient(a, b, c, &p) > 0.0
-            });
-        if !sound || !self.exchange(&hole, &new) {
-            self.mesh.points.pop();
-            self.mesh.at.pop();
-            return None;
-        }
-        Some(vertex)
+        !self.tears(&hole, &new, None)
+            && new.iter().all(|&[x, y, z, _]| self.mesh.orient(x, y, z, vertex) > 0.0)
+            && self.exchange(&hole, &new)
     }
 
     /// Whether exchanging `old` for `new` would lose an edge that must stay, or a vertex other than
@@ -94,12 +97,5 @@ impl Work {
                     })
             })
         })
-    }
-
-    /// Takes back everything since the log had `mark` entries and there were `points` points.
-    pub(crate) fn undo_with_points(&mut self, mark: usize, points: usize) {
-        self.undo_to(mark);
-        self.mesh.points.truncate(points);
-        self.mesh.at.truncate(points);
     }
 }

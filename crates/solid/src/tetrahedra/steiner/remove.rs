@@ -4,25 +4,21 @@ use crate::tetrahedra::flips::Work;
 use crate::tetrahedra::mesh::NONE;
 use crate::tetrahedra::reconnect::Region;
 
-/// How many steps a search takes to fill the hole of a point without it.
-const STEPS: u32 = 400;
+/// How many steps a search takes to fill the hole of a point without it, first and when it is hard.
+const STEPS: [u32; 2] = [400, 2000];
 /// The largest region that is searched.
-const MOST: usize = 32;
+const MOST: [usize; 2] = [28, 40];
 
 impl Work {
     /// Removes a free point, on no constraint, by drawing it onto a neighbour or by filling its hole
-    /// anew. False, with nothing changed, where neither works.
-    pub(crate) fn remove_free(&mut self, s: u32) -> bool {
+    /// anew; `hard` with more effort. False where neither works.
+    pub(crate) fn remove_free(&mut self, s: u32, hard: bool) -> bool {
+        self.shed_edges(s, hard);
         let star = self.mesh.star(s);
         if star.iter().any(|&t| self.mesh.tet(t).is_ghost()) {
             return false;
         }
-        let mut around: Vec<u32> = Vec::new();
-        for &t in &star {
-            around.extend(self.mesh.tet(t).v.iter().filter(|&&v| v != s));
-        }
-        around.sort_unstable();
-        around.dedup();
+        let around = self.around(s);
         for &to in &around {
             let mut new = Vec::new();
             let fits = star.iter().all(|&t| {
@@ -41,11 +37,11 @@ impl Work {
             }
         }
         let mut region = Region::of(&self.mesh, &star);
-        for _ in 0..6 {
-            if region.vertices.len() > MOST {
+        for _ in 0..if hard { 12 } else { 6 } {
+            if region.vertices.len() > MOST[usize::from(hard)] {
                 return false;
             }
-            if self.reconnect(&region, &[], &[], Some(s), STEPS) {
+            if self.reconnect(&region, &[], &[], Some(s), STEPS[usize::from(hard)]) {
                 self.mesh.at[s as usize] = NONE;
                 return true;
             }

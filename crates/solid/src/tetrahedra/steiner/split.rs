@@ -1,8 +1,9 @@
 //! Points on segments and in facets, for the time being.
 
+use crate::tetrahedra::constraints::Way;
 use crate::tetrahedra::flips::Work;
 use crate::tetrahedra::mesh::Ring;
-use crate::tetrahedra::predicates::P3;
+use crate::tetrahedra::predicates::{P3, orient};
 
 /// A point that was put on a constraint, and what the constraint was before.
 #[derive(Clone, Debug)]
@@ -11,13 +12,14 @@ pub(crate) struct Split {
     pub(crate) vertex: u32,
     /// The facets that it divided: corners and input face, with how many copies.
     pub(crate) facets: Vec<([u32; 3], u32, u32)>,
+    /// How many facets it made.
+    pub(crate) parts: usize,
 }
 
-/// Where along a segment to divide it, in the order tried.
-const PLACES: [f64; 17] = [
-    0.5, 0.375, 0.625, 0.25, 0.75, 0.125, 0.875, 0.45, 0.55, 0.0625, 0.9375, 0.3, 0.7, 0.03125,
-    0.96875, 0.01, 0.99,
-];
+/// Nearer to an end than this share no point is put where something passes.
+const NEAR_END: f64 = 1e-3;
+/// Where along a segment to divide it where no place that something passes will do.
+const PLACES: [f64; 9] = [0.5, 0.375, 0.625, 0.25, 0.75, 0.125, 0.875, 0.03125, 0.96875];
 
 impl Work {
     /// Divides a missing segment by a point on it, up to rounding, and its facets with it. False, with
@@ -26,10 +28,14 @@ impl Work {
         let [a, b] = self.must.segments[id as usize].ends;
         let facets = self.must.segments[id as usize].faces.clone();
         let (p, q) = (*self.mesh.point(a), *self.mesh.point(b));
-        for t in PLACES {
+        let way = self.mesh.way(a, b);
+        if way.tets.is_empty() && way.vertices.is_empty() {
+            // It came in with another one.
+            return true;
+        }
+        let start = self.with_neighbours(&way.tets);
+        for t in self.passed_at(a, b, &way).into_iter().chain(PLACES) {
             let place = [0, 1, 2].map(|k| p[k] * (1.0 - t) + q[k] * t);
-            let way = self.mesh.way(a, b);
-            let start = self.with_neighbours(&way.tets);
             if let Some(vertex) = self.insert_steiner(place, &start) {
                 let mut halves = Vec::new();
                 for &facet in &facets {
@@ -42,6 +48,43 @@ impl Work {
             }
         }
         false
+    }
+
+    /// Tetrahedra and their neighbours, ascending.
+    fn with_neighbours(&self, tets: &[u32]) -> Vec<u32> {
+        let mut all = tets.to_vec();
+        for &t in tets {
+            all.extend(self.mesh.tet(t).n.iter().map(|code| code >> 2));
+        }
+        all.retain(|&t| !self.mesh.tet(t).is_ghost());
+        all.sort_unstable();
+        all.dedup();
+        all
+    }
+
+    /// At what shares of a segment something passes it, the middle one first.
+    fn passed_at(&self, a: u32, b: u32, way: &Way) -> Vec<f64> {
+        let (p, q) = (self.mesh.point(a), self.mesh.point(b));
+        let mut shares = Vec::new();
+        for &(t, f) in &way.faces {
+            let [x, y, z] = self.mesh.tet(t).face(f);
+            let (above, below) = (self.mesh.orient(x, y, z, a), self.mesh.orient(x, y, z, b));
+            shares.push(above / (above - below));
+        }
+        for &(_, u, v) in &way.edges {
+            // With a point off the plane of both lines the edge spans a plane that cuts the segment.
+            let (u, v) = (self.mesh.point(u), self.mesh.point(v));
+            let off = [u[1] - v[1] + p[0], u[2] - v[2] + p[1], u[0] - v[0] + p[2]];
+            let (above, below) = (orient(u, v, &off, p), orient(u, v, &off, q));
+            shares.push(above / (above - below));
+        }
+        shares.retain(|&t| t > NEAR_END && t < 1.0 - NEAR_END);
+        shares.sort_by(f64::total_cmp);
+        let middle = shares.len() / 2;
+        let mut ranked: Vec<(usize, f64)> =
+            shares.into_iter().enumerate().map(|(i, t)| (i.abs_diff(middle), t)).collect();
+        ranked.sort_by_key(|&(rank, _)| rank);
+        ranked.into_iter().map(|(_, t)| t).collect()
     }
 
     /// Divides a missing facet by a point in it, up to rounding.
@@ -86,6 +129,7 @@ impl Work {
 
     fn divide(&mut self, vertex: u32, halves: Vec<(u32, Vec<[u32; 3]>)>) {
         let mut before = Vec::new();
+        let parts = halves.iter().map(|half| half.1.len()).sum();
         for (facet, parts) in halves {
             let old = self.must.facets[facet as usize].clone();
             self.must.remove(facet);
@@ -95,6 +139,6 @@ impl Work {
                 self.must.facets[id as usize].copies = old.copies;
             }
         }
-        self.splits.push(Split { vertex, facets: before });
+        self.splits.push(Split { vertex, facets: before, parts });
     }
 }
