@@ -7,8 +7,13 @@ use probe::{EdgeId, IdVec, VertexId};
 /// Actions at one haunt before all other places come first.
 const ACTIONS: u32 = 40;
 
-/// How often that is doubled once no other place has frontier left. Then the place is spent.
-const DOUBLINGS: u32 = 2;
+/// Actions once no other place has frontier left, until what is left is given up. Every new haunt, which
+/// is new ground, begins the count again: behind the last corner, tried for hundreds of actions, may
+/// lie all of a maze.
+const LAST_ACTIONS: u32 = 3_000;
+
+/// The allowance is doubled so often at most, far more often than it can be reached.
+const MOST_DOUBLINGS: u32 = 12;
 
 /// The neighbourhoods that vertices lie in, and how often the robot has acted in each.
 ///
@@ -21,7 +26,10 @@ pub(crate) struct Haunts {
     /// By vertex: its haunt, and where it lies in the frame of the vertex that founded that.
     of: IdVec<VertexId, (usize, Se2)>,
     actions: Vec<u32>,
+    /// How often every place got as much again.
     doubled: u32,
+    /// Actions since then, or since a haunt was founded.
+    last_actions: u32,
 }
 
 impl Haunts {
@@ -42,6 +50,7 @@ impl Haunts {
         let entry = nearest.map_or_else(
             || {
                 self.actions.push(0);
+                self.last_actions = 0;
                 (self.actions.len() - 1, Se2::identity())
             },
             |(_, haunt, founder_from_vertex)| (haunt, founder_from_vertex),
@@ -54,23 +63,26 @@ impl Haunts {
         if let Some((haunt, _)) = self.of.get(vertex) {
             self.actions[*haunt] += 1;
         }
+        self.last_actions += u32::from(self.doubled > 0);
     }
 
     /// Whether other places come before this one.
     pub fn can_wait(&self, vertex: VertexId) -> bool {
-        self.of
-            .get(vertex)
-            .is_some_and(|(haunt, _)| self.actions[*haunt] >= ACTIONS << self.doubled)
+        self.actions_at(vertex) >= ACTIONS << self.doubled
     }
 
-    /// Whether what is left here is to be given up: it had its turn, and its turn after all others.
+    /// Whether what is left here is to be given up: it had its turn, and its turns after all others.
     pub fn is_spent(&self, vertex: VertexId) -> bool {
-        self.doubled == DOUBLINGS && self.can_wait(vertex)
+        self.last_actions >= LAST_ACTIONS && self.actions_at(vertex) >= ACTIONS
     }
 
-    /// Nothing is left elsewhere: every place gets as much again; false where it has had it all.
+    fn actions_at(&self, vertex: VertexId) -> u32 {
+        self.of.get(vertex).map_or(0, |(haunt, _)| self.actions[*haunt])
+    }
+
+    /// Nothing is left elsewhere: every place gets as much again; false where that is over.
     pub fn relent(&mut self) -> bool {
-        let may = self.doubled < DOUBLINGS;
+        let may = self.last_actions < LAST_ACTIONS && self.doubled < MOST_DOUBLINGS;
         self.doubled += u32::from(may);
         may
     }
@@ -129,17 +141,29 @@ mod tests {
     fn every_place_gets_as_much_again_when_nothing_is_left_elsewhere_and_then_is_spent() {
         let (_, mut haunts) = chain(2, 2.0, 1.0);
         let here = VertexId(0);
+        act(&mut haunts, 0, ACTIONS);
+        assert!(haunts.can_wait(here) && haunts.relent() && !haunts.can_wait(here));
         let mut acted = 0;
-        loop {
-            while !haunts.can_wait(here) {
+        while !haunts.is_spent(here) {
+            if haunts.can_wait(here) {
+                assert!(haunts.relent());
+            } else {
                 haunts.acted(here);
                 acted += 1;
             }
-            assert_eq!(haunts.is_spent(here), acted == ACTIONS << DOUBLINGS);
-            if !haunts.relent() {
-                break;
-            }
         }
-        assert!(haunts.is_spent(here) && !haunts.is_spent(VertexId(1)));
+        assert_eq!(acted, LAST_ACTIONS);
+        assert!(!haunts.relent() && !haunts.is_spent(VertexId(1)));
+    }
+
+    #[test]
+    fn new_ground_begins_the_count_again() {
+        let (mut graph, mut haunts) = chain(1, 2.0, 1.0);
+        assert!(haunts.relent());
+        act(&mut haunts, 0, LAST_ACTIONS);
+        assert!(haunts.is_spent(VertexId(0)));
+        let vertex = graph.add_vertex();
+        haunts.found(&graph, vertex, &[], 1.0);
+        assert!(!haunts.is_spent(VertexId(0)) && haunts.relent());
     }
 }

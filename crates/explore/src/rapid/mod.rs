@@ -5,10 +5,10 @@
 //! towards it keeps even the least clearance, from where it was seen or from another place; and when
 //! the robot has acted for longer than going there takes, and nothing new was left or gone, or went
 //! for the same goal again and again (`patience`). A goal that is given up takes the frontier around it
-//! out of the count for good. Every part of a place is allowed so many actions, and again as many
-//! when nothing is left elsewhere, a few times over; then what it still has left is given up
-//! (`haunts`). Parts lie a step from each other where places are recognised, so a bounded place has
-//! finitely many of them, and a run comes to its end for certain. Without recognition drift may found ever
+//! out of the count for good. Every part of a place is allowed so many actions before all others come
+//! first, and again as many when nothing is left elsewhere, until that has brought no new ground for
+//! long; then what is left is given up (`haunts`). Parts lie a step from each other where places are
+//! recognised, so a bounded place has finitely many of them. Without recognition drift may found ever
 //! new ones: then the step limit ends the run, as not complete.
 
 mod approach;

@@ -110,13 +110,41 @@ impl Explorer {
         if !left || pursuit.moves_left == 0 || goal.coords.norm() < params.arrival_m {
             return false;
         }
-        let Some(moved) = self.step_to(robot, goal, params, probe) else { return false };
+        let Some(moved) = self.step_to(robot, goal, params, probe) else {
+            return self.go_on_by_detour(robot, &goal, params, probe);
+        };
         self.rapid.pursuit = Some(Pursuit {
             goal_in_body: moved.inverse_transform(&goal),
             moves_left: pursuit.moves_left - 1,
             ..pursuit
         });
         true
+    }
+
+    /// Goes on towards a goal behind a corner that the straight way to it would touch.
+    ///
+    /// Down a staircase of corridors the robot sees farther than it gets on that line. It would go
+    /// back and come again, and leave all that lies behind.
+    fn go_on_by_detour(
+        &mut self,
+        robot: &mut dyn Robot,
+        goal_in_body: &Point2,
+        params: &RapidParams,
+        probe: &mut dyn ExploreProbe,
+    ) -> bool {
+        let standing = self.standing;
+        for &clearance_m in &params.clearances_m {
+            let Some(point) = self.maps[0].detour(&standing, goal_in_body, clearance_m) else {
+                continue;
+            };
+            if let Some(moved) = self.step_to(robot, point, params, probe) {
+                let behind = Behind::new(Some(point), *goal_in_body, params);
+                self.rapid.behind = Some(behind.moved(&moved));
+                self.rapid.pursuit = None;
+                return true;
+            }
+        }
+        false
     }
 
     /// Whether the robot has moved towards this goal for longer than it can be far away.
