@@ -3,6 +3,7 @@
 use super::lanczos::largest_eigenpair;
 use crate::synchronize::problem::{Block, Problem};
 use crate::synchronize::sparse::{BlockCholesky, Part};
+use crate::synchronize::stiefel::subtract_product;
 
 /// What is known of the smallest eigenvalue of `S_R`.
 #[derive(Clone, Debug, PartialEq)]
@@ -13,6 +14,10 @@ pub(crate) struct Smallest {
     pub(crate) eigenvalue: f64,
     /// What it is known to.
     pub(crate) precision: f64,
+    /// No point of any rank costs less than this; minus infinity where that is not known.
+    pub(crate) lower_bound: f64,
+    /// Whether that is known from the matrix without one rotation of each component.
+    pub(crate) held: bool,
     /// A direction of negative curvature, one number for each row of `X`; empty where `positive`.
     pub(crate) direction: Vec<f64>,
 }
@@ -34,9 +39,10 @@ impl<'a, const B: usize> DualMatrix<'a, B> {
         Self { problem, multipliers, factor: BlockCholesky::new(&problem.pattern, B) }
     }
 
-    fn factorize(&mut self, shift: f64) -> bool {
+    /// Factorises `S + shift I_R`, one rotation of each component struck out where it is `held`.
+    fn factorize(&mut self, shift: f64, held: bool) -> bool {
         let (problem, into) = (self.problem, &mut self.factor);
-        let struck = |vertex: usize, row: usize| row + 1 == B && problem.anchor[vertex] == vertex;
+        let struck = |vertex: usize, row: usize| is_struck(problem, held, vertex, row);
         into.clear();
         for (vertex, (block, multiplier)) in
             problem.diagonal().iter().zip(self.multipliers).enumerate()
@@ -67,29 +73,53 @@ impl<'a, const B: usize> DualMatrix<'a, B> {
         into.factorize()
     }
 
-    /// The smallest eigenvalue of `S_R`: one factorisation where none is below `-eta`; else a shift
-    /// that makes it positive definite is found by factors of 10, and Lanczos on the inverse of the
-    /// shifted matrix gives the eigenvalue with its vector.
+    /// The smallest eigenvalue of `S_R` at the point `x` of this cost: one factorisation where none is
+    /// below `-eta`; else a shift that makes it positive definite is found by factors of 10, and
+    /// Lanczos on the inverse of the shifted matrix gives the eigenvalue with its vector.
     ///
     /// Where rounding spoils the factorisation, `eta` grows by tens up to `most`, and the precision
-    /// tells so.
-    pub(crate) fn smallest(&mut self, eta: f64, most: f64) -> Smallest {
+    /// tells so. Where that leaves more than `gap` between the cost and its bound, one rotation is
+    /// held, see [`bound_held`](Self::bound_held).
+    pub(crate) fn smallest(&mut self, x: &[f64], cost: f64, limits: &TestLimits) -> Smallest {
+        let TestLimits { eta, most, gap } = *limits;
+        let trace: f64 =
+            self.multipliers.iter().flat_map(|block| (0..B - 1).map(|k| block[k][k])).sum();
+        let columns = (self.problem.rows() / B * (B - 1)) as f64;
+        let first_rank = x.len() == self.problem.rows() * (B - 1);
+        let positive = |precision: f64, lower_bound: f64, held: bool| Smallest {
+            positive: true,
+            eigenvalue: 0.0,
+            precision,
+            lower_bound,
+            held,
+            direction: Vec::new(),
+        };
         let mut eta = eta;
         loop {
-            if self.factorize(eta) {
-                let (precision, direction) = (eta, Vec::new());
-                return Smallest { positive: true, eigenvalue: 0.0, precision, direction };
+            if self.factorize(eta, false) {
+                let bound = trace - eta * columns;
+                if cost - bound > gap && first_rank {
+                    let narrow = self.bound_held(x, cost, most);
+                    return positive(eta, bound.max(narrow), narrow > bound);
+                }
+                return positive(eta, bound, false);
             }
             if eta * 10.0 > most {
                 break;
             }
             eta *= 10.0;
         }
+        if first_rank {
+            let bound = self.bound_held(x, cost, most);
+            if cost - bound <= gap {
+                return positive(10.0 * eta, bound, true);
+            }
+        }
         let (largest, _) = self.problem.largest_diagonal();
         let mut shift = eta.max(f64::MIN_POSITIVE.sqrt());
         loop {
             shift *= 10.0;
-            if self.factorize(shift) {
+            if self.factorize(shift, false) {
                 break;
             }
             if shift > 1e3 * largest {
@@ -99,6 +129,8 @@ impl<'a, const B: usize> DualMatrix<'a, B> {
                     positive: false,
                     eigenvalue,
                     precision: f64::INFINITY,
+                    lower_bound: f64::NEG_INFINITY,
+                    held: false,
                     direction: Vec::new(),
                 };
             }
@@ -129,6 +161,61 @@ impl<'a, const B: usize> DualMatrix<'a, B> {
         let norm = direction.iter().enumerate().filter(|&(row, _)| rotation(row));
         let norm = norm.map(|(_, x)| x * x).sum::<f64>().sqrt();
         direction.iter_mut().for_each(|x| *x /= norm);
-        Smallest { positive: false, eigenvalue, precision, direction }
+        let lower_bound = f64::NEG_INFINITY;
+        Smallest { positive: false, eigenvalue, precision, lower_bound, held: false, direction }
+    }
+
+    /// What no poses cost less than, by the matrix without one rotation of each component; minus
+    /// infinity where that is not positive definite.
+    ///
+    /// Any feasible `Y` can be turned, `C` orthogonal, so that `W = Y - X C` vanishes at the vertex
+    /// that is held. With `G = S X`, which is the gradient and nearly 0, and `S_h` the matrix without
+    /// the rows of that vertex,
+    ///
+    /// `F(Y) = F(X) + 2 ⟨W, G C⟩ + ⟨W, S_h W⟩ ≥ F(X) - ⟨G, S_h⁻¹ G⟩`.
+    ///
+    /// `S_h` has none of the null space of `S`, so it is factorised minus `shift`, far above what
+    /// rounding does to it, instead of plus `η`: the bound does not suffer from entries of `1e14`. Holds at
+    /// rank `d`; at a higher one `S_h` keeps a null space.
+    fn bound_held(&mut self, x: &[f64], cost: f64, shift: f64) -> f64 {
+        if !self.factorize(-shift, true) {
+            return f64::NEG_INFINITY;
+        }
+        let (problem, rows) = (self.problem, self.problem.rows());
+        let mut gradient = vec![0.0; x.len()];
+        problem.cost_and_product(x, &mut gradient);
+        subtract_product(rows, self.multipliers, x, &mut gradient);
+        for (index, entry) in gradient.iter_mut().enumerate() {
+            let row = index % rows;
+            if is_struck(problem, true, row / B, row % B) {
+                *entry = 0.0;
+            }
+        }
+        let mut step = gradient.clone();
+        self.factor.solve(&mut step);
+        let decrement: f64 = gradient.iter().zip(&step).map(|(g, s)| g * s).sum();
+        // What rounding leaves of a sum of squares.
+        cost - decrement - 1e-12 * cost - 1e-24 * problem.scale
+    }
+}
+
+/// What a test of the certificate may spend and has to show.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct TestLimits {
+    /// Eigenvalues above minus this count as not negative.
+    pub(crate) eta: f64,
+    /// What `eta` may grow to where the factorisation loses more digits than that.
+    pub(crate) most: f64,
+    /// The gap between the cost and its bound that is asked for.
+    pub(crate) gap: f64,
+}
+
+/// Whether a row of a vertex is struck out of the matrix: the translation of the first vertex of each
+/// component, and, where it is `held`, its rotation.
+fn is_struck<const B: usize>(problem: &Problem<B>, held: bool, vertex: usize, row: usize) -> bool {
+    if row + 1 == B {
+        problem.anchor[vertex] == vertex
+    } else {
+        held && problem.component[vertex] == vertex
     }
 }

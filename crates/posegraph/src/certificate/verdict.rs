@@ -133,7 +133,7 @@ fn certify_blocks<P: Rigid<D>, const D: usize, const B: usize>(
 }
 
 /// A bound on the gap that is wider than this share of the cost proves nothing worth telling.
-const WIDEST_GAP: f64 = 1e-2;
+const WIDEST_GAP: f64 = 1e-4;
 
 /// So small a share of the terms that the cost is the difference of is rounding, where the cost is 0.
 const ROUNDING: f64 = 1e-9;
@@ -148,6 +148,11 @@ fn conclude<P>(climbed: Climbed, poses: Vec<P>, scale: f64) -> Certificate<P> {
         format!(
             "weights so large that eigenvalues are known to {:.3e} only leave a gap of {gap:.3e}",
             smallest.precision
+        )
+    } else if smallest.positive && smallest.held {
+        format!(
+            "the certificate matrix without one rotation, which leaves no null space, has a Cholesky factor, so no poses cost less than {:.9e}",
+            cost - gap
         )
     } else if smallest.positive {
         format!(

@@ -42,7 +42,7 @@ pub(crate) mod rounding;
 pub(crate) mod sparse;
 pub(crate) mod staircase;
 #[expect(clippy::needless_range_loop, reason = "indices of small blocks, as in the formulas")]
-mod stiefel;
+pub(crate) mod stiefel;
 mod tangent;
 
 pub use event::SynchronizeEvent;

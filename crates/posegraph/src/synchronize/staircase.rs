@@ -7,7 +7,7 @@ use super::newton::{Descent, Limits, descend};
 use super::problem::Problem;
 use super::rounding::round;
 use super::stiefel::orthonormalise;
-use crate::certificate::dual::{DualMatrix, Smallest};
+use crate::certificate::dual::{DualMatrix, Smallest, TestLimits};
 
 /// How far a synchronisation goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -44,19 +44,17 @@ pub(crate) struct Climbed {
     pub(crate) converged: bool,
 }
 
-/// `η`: eigenvalues of the certificate matrix above `-η` count as not negative.
+/// What the certificate's test is given.
 ///
-/// The cost exceeds the optimum by at most `η d n` then, so `η` is the allowed gap shared out over
-/// the `d n` columns; never less than what rounding leaves of the largest entry. The second number is
-/// what it may grow to where the factorisation loses more digits than that.
-pub(crate) fn threshold<const B: usize>(
-    problem: &Problem<B>,
-    cost: f64,
-    relative_gap: f64,
-) -> (f64, f64) {
+/// `η`, above minus which eigenvalues count as not negative: the cost exceeds the optimum by at most
+/// `η d n` then, so it is the allowed gap shared out over the `d n` columns; never less than what
+/// rounding leaves of the largest entry.
+fn test_limits<const B: usize>(problem: &Problem<B>, cost: f64, relative_gap: f64) -> TestLimits {
     let columns = (problem.rows() / B * (B - 1)).max(1) as f64;
     let (largest, _) = problem.largest_diagonal();
-    ((relative_gap * cost / columns).max(1e-15 * largest), 1e-12 * largest)
+    let gap = relative_gap * cost;
+    // A gap that is wholly used up by `η d n` leaves none for rounding of the sums.
+    TestLimits { eta: (gap / columns).max(1e-15 * largest), most: 1e-12 * largest, gap: 1.01 * gap }
 }
 
 /// Descends from `x` at rank `d`, tests the certificate, and climbs while it fails.
@@ -66,7 +64,7 @@ pub(crate) fn climb<const B: usize>(
     options: &SynchronizeOptions,
     probe: &mut impl for<'a> Probe<SynchronizeEvent<'a>>,
 ) -> Climbed {
-    let (rows, d) = (problem.rows(), B - 1);
+    let d = B - 1;
     let limits =
         Limits { iterations: options.iterations, relative_decrease: options.relative_decrease };
     let mut found = descend(problem, x, &limits, probe);
@@ -75,13 +73,9 @@ pub(crate) fn climb<const B: usize>(
     // The best point of rank d so far, with its test.
     let mut best: Option<(Descent<B>, Smallest)> = None;
     loop {
-        let (smallest, dual_cost) = test(problem, &found, rank, options, probe);
-        let columns = (rows / B * d) as f64;
+        let smallest = test(problem, &found, rank, options, probe);
         let positive = smallest.positive;
-        if positive {
-            let bound = dual_cost - smallest.precision * columns;
-            lower_bound = Some(lower_bound.map_or(bound, |b: f64| b.max(bound)));
-        }
+        lower_bound = higher(lower_bound, &smallest);
         if rank == d {
             best = Some((found.clone(), smallest.clone()));
         }
@@ -107,11 +101,8 @@ pub(crate) fn climb<const B: usize>(
         });
         let lower = best.as_ref().is_none_or(|(best, _)| rounded.cost < best.cost);
         if lower {
-            let (smallest, dual_cost) = test(problem, &rounded, d, options, probe);
-            if smallest.positive {
-                let bound = dual_cost - smallest.precision * (rows / B * d) as f64;
-                lower_bound = Some(lower_bound.map_or(bound, |b: f64| b.max(bound)));
-            }
+            let smallest = test(problem, &rounded, d, options, probe);
+            lower_bound = higher(lower_bound, &smallest);
             best = Some((rounded, smallest));
         }
     }
@@ -126,18 +117,23 @@ pub(crate) fn climb<const B: usize>(
     }
 }
 
-/// The certificate test at a stationary point, and the value of the dual there.
+/// The higher of a bound and that of a test, where it knows one.
+fn higher(bound: Option<f64>, test: &Smallest) -> Option<f64> {
+    let bounds = bound.into_iter().chain(Some(test.lower_bound)).filter(|bound| bound.is_finite());
+    bounds.reduce(f64::max)
+}
+
+/// The certificate test at a stationary point.
 fn test<const B: usize>(
     problem: &Problem<B>,
     found: &Descent<B>,
     rank: usize,
     options: &SynchronizeOptions,
     probe: &mut impl for<'a> Probe<SynchronizeEvent<'a>>,
-) -> (Smallest, f64) {
-    let dual_cost =
-        found.multipliers.iter().map(|block| (0..B - 1).map(|k| block[k][k]).sum::<f64>()).sum();
-    let (eta, most) = threshold(problem, found.cost, options.relative_gap);
-    let smallest = DualMatrix::new(problem, &found.multipliers).smallest(eta, most);
+) -> Smallest {
+    let limits = test_limits(problem, found.cost, options.relative_gap);
+    let smallest =
+        DualMatrix::new(problem, &found.multipliers).smallest(&found.x, found.cost, &limits);
     probe.emit(SynchronizeEvent::Tested {
         rank,
         cost: found.cost,
@@ -145,7 +141,7 @@ fn test<const B: usize>(
         precision: smallest.precision,
         positive: smallest.positive,
     });
-    (smallest, dual_cost)
+    smallest
 }
 
 /// A point one rank higher with a lower cost, along a direction of negative curvature.

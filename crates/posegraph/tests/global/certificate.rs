@@ -35,6 +35,22 @@ fn certified_solutions_are_so_by_dense_algebra() {
     }
 }
 
+/// Entries of the matrix are `1e12` times the cost: what rounding leaves of `S + η I` alone is a gap as
+/// wide as a fifth of the cost.
+#[test]
+fn stiff_graphs_are_certified_to_a_narrow_gap() {
+    for seed in 0..4 {
+        let (graph, _) = noisy3(12, 12, 1e-6, seed);
+        let found = certify(&graph, &chordal(&graph), &SynchronizeOptions::default());
+        assert_eq!(found.verdict, Verdict::GloballyOptimal, "{}", found.reason);
+        let cost = sesync_cost(&graph, &found.poses);
+        let scale = data_matrix(&graph).amax();
+        assert!(cost < 1e-9 && scale > 10.0, "not stiff: {cost} of {scale}");
+        assert!(found.gap <= 1e-6 * cost, "gap {} of {cost}", found.gap);
+        assert!(smallest_eigenvalue(&graph, &found.poses) >= -1e-12 * scale);
+    }
+}
+
 #[test]
 fn parallel_measurements_and_components_are_certified_together() {
     let (mut graph, _) = noisy2(10, 8, 0.1, 5);
