@@ -18,8 +18,9 @@
 //! 4. **Order** the vertices that came loose by approximate minimum degree, the new one last, since the
 //!    next step will touch it; **eliminate** them as dense fronts.
 //! 5. **Solve** from the roots down, no further than changes lower the cost by more than
-//!    [`propagate`](IncrementalOptions::propagate) (wildfire). One Gauss-Newton iteration per step is
-//!    the default; later steps go on where it ended.
+//!    [`propagate`](IncrementalOptions::propagate) (wildfire). By default a second Gauss-Newton
+//!    iteration follows where the first left linear models that no longer hold, as large loop closures
+//!    do; later steps go on where it ended.
 //! 6. [`finish`](Incremental::finish) runs the batch optimiser from there, which is mostly one or two
 //!    iterations, and reports how it ended: where it matters that the poses are *the* minimum.
 //!

@@ -15,7 +15,8 @@ pub struct IncrementalOptions {
     /// Changes of steps that lower the cost by no more than this share of the mean `χ²` of a factor
     /// are not passed on.
     pub propagate: f64,
-    /// Gauss-Newton iterations per added vertex, at most; at least one is done.
+    /// Gauss-Newton iterations per added vertex, at most; at least one is done. The second is done only
+    /// where the first left something to be linearised anew, which after most steps it does not.
     pub iterations: usize,
 }
 
@@ -26,7 +27,7 @@ impl Default for IncrementalOptions {
             relinearise: 0.01,
             bend: 1e-4,
             propagate: 1e-7,
-            iterations: 1,
+            iterations: 2,
         }
     }
 }
