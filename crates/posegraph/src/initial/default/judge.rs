@@ -49,6 +49,19 @@ pub struct Judgement {
     pub doubt: Option<Doubt>,
 }
 
+/// From this share of its expectation on, `χ²` tells that the information matrices are right.
+const CALIBRATED: f64 = 0.8;
+
+impl Judgement {
+    /// Whether noise explains a solution: there is no doubt, or `χ²` is about what noise leaves. Then
+    /// errors around a loop may add up to much, and steps that still circle are in the right valley.
+    pub(super) fn is_explained(&self) -> bool {
+        let spread = (2.0 / self.degrees_of_freedom.max(1) as f64).sqrt();
+        let plausible = CALIBRATED..=1.0 + DEVIATIONS * spread;
+        self.doubt.is_none() || plausible.contains(&self.chi2_per_degree)
+    }
+}
+
 /// Judges a solution by what needs no factorisation.
 pub(super) fn judge<P: Rigid<D>, const D: usize>(
     graph: &FactorGraph<P, D>,

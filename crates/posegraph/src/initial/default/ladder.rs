@@ -170,7 +170,12 @@ pub fn default_start_by<P: Rigid<D>, const D: usize>(
     }
     let lowest = better.as_ref().map_or(&start.solution, |better| &better.solution);
     // In the plane the other starts cost next to nothing; in space they take long to lead astray.
-    if !certified || (P::DIM == 2 && judge(graph, lowest).doubt.is_some()) {
+    let judged = judge(graph, lowest);
+    let go_on = match P::DIM {
+        2 => !certified || judged.doubt.is_some(),
+        _ => !certified && !judged.is_explained(),
+    };
+    if go_on {
         try_from(Origin::Odometry, odometry(graph), &mut start, &mut better);
         try_from(Origin::SpanningTree, spanning_tree(graph), &mut start, &mut better);
         let tree = surest_tree(graph);

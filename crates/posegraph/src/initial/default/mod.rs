@@ -21,6 +21,10 @@
 //!    certified (in the plane: and believed), from odometry, the spanning tree and the surest tree too;
 //!    in the plane also from what becomes of odometry and the surest tree when factors may disagree for
 //!    a while (Cauchy's loss, as wide as noise is by the lowest solution so far). The lowest `χ²` wins.
+//!
+//!    In space those starts take long and lead astray. They are left out where the lowest solution so
+//!    far is explained by noise: there is no doubt, or `χ²` is at least 0.8 of its expectation and not
+//!    too high, so that noise is as large as the information matrices say.
 //! 5. Where even the lowest did not converge, damped steps go on from it.
 //!
 //! `χ²` has no certificate: a start that passes is plausible, not proven. Nothing is looked up.
