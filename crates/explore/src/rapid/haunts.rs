@@ -66,6 +66,16 @@ impl Haunts {
         self.last_actions += u32::from(self.doubled > 0);
     }
 
+    /// Nothing comes of acting at a vertex: others come first now; false where they do already, or
+    /// where its last turn is over.
+    pub fn tire_of(&mut self, vertex: VertexId) -> bool {
+        let (allowed, is_over) = (ACTIONS << self.doubled, self.last_actions >= LAST_ACTIONS);
+        let Some((haunt, _)) = self.of.get(vertex).filter(|_| !is_over) else { return false };
+        let tires = self.actions[*haunt] < allowed;
+        self.actions[*haunt] = self.actions[*haunt].max(allowed);
+        tires
+    }
+
     /// Whether other places come before this one.
     pub fn can_wait(&self, vertex: VertexId) -> bool {
         self.actions_at(vertex) >= ACTIONS << self.doubled

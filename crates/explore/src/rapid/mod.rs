@@ -65,11 +65,12 @@ impl Explorer {
             return;
         }
         self.rapid.haunts.acted(self.standing.vertex);
-        if self.leave_haunt(robot, &params, probe) {
-            return;
-        }
-        // Giving goals up may leave nothing in view; each round closes some, so this ends.
+        // Giving goals up may leave nothing in view. Each round closes some, or has the place wait, which
+        // comes to its last turn: so this ends.
         loop {
+            if self.leave_haunt(robot, &params, probe) {
+                return;
+            }
             let mut candidates = std::mem::take(&mut self.candidates);
             self.maps[0].in_view(&self.standing, &mut candidates);
             let acted = if candidates.is_empty() {

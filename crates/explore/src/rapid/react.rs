@@ -22,7 +22,8 @@ pub(crate) struct Pursuit {
 }
 
 impl Explorer {
-    /// Acts on the frontiers in view; false when all that happened is that goals were given up.
+    /// Acts on the frontiers in view; false when all that happened is that goals were given up, or that
+    /// the robot tired of the place.
     pub(super) fn react(
         &mut self,
         robot: &mut dyn Robot,
@@ -55,6 +56,9 @@ impl Explorer {
         });
         let distance_m = motion.to_in_body.coords.norm();
         if !self.is_worth_going(&candidate.goals_in_body[0], distance_m, params) {
+            if self.rapid.haunts.tire_of(self.standing.vertex) {
+                return false;
+            }
             self.give_up(&candidate.goals_in_body[0], GiveUp::NothingNew, params, probe);
             return false;
         }
