@@ -4,7 +4,7 @@ use super::goal::Goal;
 use super::state::Work;
 
 /// How far a search for flips goes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct Effort {
     /// How many edges may be removed for the sake of the removal of another.
     pub(crate) depth: u32,
@@ -12,8 +12,8 @@ pub(crate) struct Effort {
     pub(crate) ring: usize,
     /// How many removals are tried in one search.
     pub(crate) tries: u32,
-    /// Whether nearly flat tetrahedra may be made.
-    pub(crate) flat: bool,
+    /// Flatter tetrahedra than this are not made; see [`evenness`](super::evenness).
+    pub(crate) flattest: f64,
 }
 
 impl Work {
@@ -59,7 +59,7 @@ impl Work {
             if !self.mesh.ring(t, u, v, effort.ring, &mut ring) {
                 break;
             }
-            if let Some(less) = self.flip_ring(u, v, &ring, goal, gain - sum, effort.flat) {
+            if let Some(less) = self.flip_ring(u, v, &ring, goal, gain - sum, effort.flattest) {
                 done = Some(sum + less);
                 break;
             }

@@ -1,20 +1,20 @@
 //! The 2-3 flip: a face goes, an edge comes.
 
 use super::goal::Goal;
-use super::ring::is_flat;
+use super::ring::evenness;
 use super::state::Work;
 
 impl Work {
     /// Removes the face opposite corner `f` of tetrahedron `t` by joining the two apexes, where the
     /// two tetrahedra are strictly convex together and the goal comes nearer by at least `gain`.
-    /// Returns by how much less is in the way. Nearly flat tetrahedra are made only if `allow_flat`.
+    /// Returns by how much less is in the way. No tetrahedron flatter than `flattest` is made.
     pub(crate) fn flip_face(
         &mut self,
         t: u32,
         f: usize,
         goal: Goal,
         gain: i32,
-        allow_flat: bool,
+        flattest: f64,
     ) -> Option<i32> {
         let tet = *self.mesh.tet(t);
         let other = tet.n[f] >> 2;
@@ -34,7 +34,7 @@ impl Work {
         for tet in new {
             let [a, b, c, d] = tet;
             let volume = mesh.orient(a, b, c, d);
-            if volume <= 0.0 || (!allow_flat && is_flat(mesh, volume, tet)) {
+            if volume <= 0.0 || evenness(mesh, volume, tet) < flattest {
                 return None;
             }
         }

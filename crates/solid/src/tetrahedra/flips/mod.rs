@@ -18,5 +18,5 @@ mod state;
 
 pub(crate) use deep::Effort;
 pub(crate) use goal::Goal;
-pub(crate) use ring::is_flat;
+pub(crate) use ring::{FLAT, evenness};
 pub(crate) use state::Work;

@@ -20,9 +20,9 @@ pub(crate) struct Table {
 const WEIGHT: i32 = 1 << 12;
 
 /// How many flat tetrahedra, of the two with the ends of the edge, the triangle of ring vertices `a`,
-/// `b`, `c` makes; `None` where one of them is not positive.
+/// `b`, `c` makes; `None` where one of them is not positive, or flatter than `flattest`.
 #[inline]
-fn spans(mesh: &Mesh, u: u32, v: u32, [a, b, c]: [u32; 3], may_be_flat: bool) -> Option<i32> {
+fn spans(mesh: &Mesh, u: u32, v: u32, [a, b, c]: [u32; 3], flattest: f64) -> Option<i32> {
     let above = mesh.orient(a, b, c, v);
     if above <= 0.0 {
         return None;
@@ -31,23 +31,27 @@ fn spans(mesh: &Mesh, u: u32, v: u32, [a, b, c]: [u32; 3], may_be_flat: bool) ->
     if below <= 0.0 {
         return None;
     }
-    let flat = i32::from(is_flat(mesh, above, [a, b, c, v]))
-        + i32::from(is_flat(mesh, below, [a, b, c, u]));
-    (flat == 0 || may_be_flat).then_some(flat)
+    let (above, below) = (evenness(mesh, above, [a, b, c, v]), evenness(mesh, below, [a, b, c, u]));
+    if above < flattest || below < flattest {
+        return None;
+    }
+    Some(i32::from(above < FLAT) + i32::from(below < FLAT))
 }
 
-/// Whether a tetrahedron, six times the volume of which is `volume`, is nearly flat for its size.
+/// A tetrahedron that is less even than this is nearly flat: its corners were meant to lie in one plane.
+pub(crate) const FLAT: f64 = 1e-10;
+
+/// The volume of a tetrahedron relative to that of three edges of its lengths at right angles, where
+/// `volume` is six times the first: from 1 down to 0 for a flat one.
 #[inline]
-pub(crate) fn is_flat(mesh: &Mesh, volume: f64, [a, b, c, d]: [u32; 4]) -> bool {
-    /// The square of the largest ratio of the volume to that of three edges at right angles.
-    const FLAT: f64 = 1e-20;
+pub(crate) fn evenness(mesh: &Mesh, volume: f64, [a, b, c, d]: [u32; 4]) -> f64 {
     let from = mesh.point(d);
     let square = |v: u32| {
         let p = mesh.point(v);
         let (x, y, z) = (p[0] - from[0], p[1] - from[1], p[2] - from[2]);
         x * x + y * y + z * z
     };
-    volume * volume < FLAT * square(a) * square(b) * square(c)
+    volume / (square(a) * square(b) * square(c)).sqrt()
 }
 
 impl Work {
@@ -73,14 +77,14 @@ impl Work {
         ring: &Ring,
         goal: Goal,
         gain: i32,
-        may_be_flat: bool,
+        flattest: f64,
     ) -> Option<i32> {
         let n = ring.vertices.len();
         if n < 3 || !self.may_remove(u, v, ring) {
             return None;
         }
         let mut table = std::mem::take(&mut self.table);
-        let done = self.best_ring(u, v, ring, goal, gain, may_be_flat, &mut table);
+        let done = self.best_ring(u, v, ring, goal, gain, flattest, &mut table);
         self.table = table;
         done
     }
@@ -93,7 +97,7 @@ impl Work {
         ring: &Ring,
         goal: Goal,
         gain: i32,
-        may_be_flat: bool,
+        flattest: f64,
         table: &mut Table,
     ) -> Option<i32> {
         let mesh = &self.mesh;
@@ -122,7 +126,7 @@ impl Work {
                         continue;
                     }
                     let face = [p[i], p[k], p[j]];
-                    let Some(flat) = spans(mesh, u, v, face, may_be_flat) else { continue };
+                    let Some(flat) = spans(mesh, u, v, face, flattest) else { continue };
                     let cost = below + flat + WEIGHT * goal.of_face(mesh, face);
                     if cost < best {
                         (best, at) = (cost, k);

@@ -1,15 +1,15 @@
 //! How hard and in which order missing things are searched for.
 
-use crate::tetrahedra::flips::Effort;
+use crate::tetrahedra::flips::{Effort, FLAT};
 
 /// Plain flips.
-const PLAIN: Effort = Effort { depth: 0, ring: 16, tries: 0, flat: false };
+const PLAIN: Effort = Effort { depth: 0, ring: 16, tries: 0, flattest: FLAT };
 /// Flips after a flip that clears the way.
-const SHALLOW: Effort = Effort { depth: 1, ring: 24, tries: 20, flat: false };
+const SHALLOW: Effort = Effort { depth: 1, ring: 24, tries: 20, flattest: FLAT };
 /// Two flips that clear the way, one for the other.
-const DEEP: Effort = Effort { depth: 2, ring: 24, tries: 200, flat: false };
+const DEEP: Effort = Effort { depth: 2, ring: 24, tries: 200, flattest: FLAT };
 /// As a last resort nearly flat tetrahedra may be made.
-const FLAT: Effort = Effort { depth: 1, ring: 40, tries: 60, flat: true };
+const ANYHOW: Effort = Effort { depth: 1, ring: 40, tries: 60, flattest: 0.0 };
 
 /// One way to go about it. Which constraints are stuck, and where points go, depends on the order; where
 /// one plan leaves no room for a point another one mostly does.
@@ -29,8 +29,8 @@ pub(crate) const PLANS: [Plan; 8] = [
     Plan { efforts: &[PLAIN, SHALLOW, DEEP], turn: 2 },
     Plan { efforts: &[PLAIN, SHALLOW], turn: 3 },
     Plan { efforts: &[PLAIN, SHALLOW, DEEP], turn: 4 },
-    Plan { efforts: &[PLAIN, SHALLOW, FLAT], turn: 0 },
-    Plan { efforts: &[PLAIN, SHALLOW, DEEP, FLAT], turn: 5 },
+    Plan { efforts: &[PLAIN, SHALLOW, ANYHOW], turn: 0 },
+    Plan { efforts: &[PLAIN, SHALLOW, DEEP, ANYHOW], turn: 5 },
 ];
 
 impl Plan {

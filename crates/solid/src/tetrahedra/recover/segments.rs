@@ -1,7 +1,7 @@
 //! Making missing segments edges, by flips.
 
 use crate::tetrahedra::constraints::First;
-use crate::tetrahedra::flips::{Effort, Goal, Work};
+use crate::tetrahedra::flips::{Effort, FLAT, Goal, Work};
 
 /// More flips than this for one segment are not made at one go.
 const MOST_STEPS: usize = 100_000;
@@ -48,11 +48,11 @@ impl Work {
     /// Takes a face that is in the way away, by a flip of it or by removing one of its edges.
     fn clear_face(&mut self, t: u32, f: usize, goal: Goal, effort: Effort) -> bool {
         let [x, y, z] = self.mesh.tet(t).face(f);
-        self.flip_face(t, f, goal, 1, false).is_some()
+        self.flip_face(t, f, goal, 1, effort.flattest.max(FLAT)).is_some()
             || [(x, y), (y, z), (z, x)]
                 .into_iter()
                 .any(|(u, v)| self.remove_edge(u, v, goal, 1, effort).is_some())
-            || (effort.flat && self.flip_face(t, f, goal, 1, true).is_some())
+            || (effort.flattest < FLAT && self.flip_face(t, f, goal, 1, effort.flattest).is_some())
     }
 
     /// Tries all that the segment meets, from one end to the other.

@@ -1,6 +1,6 @@
 //! Putting a point into a mesh that is not Delaunay.
 
-use crate::tetrahedra::flips::{Work, is_flat};
+use crate::tetrahedra::flips::{FLAT, Work, evenness};
 use crate::tetrahedra::mesh::FACE;
 use crate::tetrahedra::predicates::{P3, orient};
 
@@ -46,7 +46,8 @@ impl Work {
                 }
                 let [x, y, z] = tet.face(f);
                 let volume = self.mesh.orient(x, y, z, vertex);
-                if volume > 0.0 && !(well && is_flat(&self.mesh, volume, [x, y, z, vertex])) {
+                if volume > 0.0 && !(well && evenness(&self.mesh, volume, [x, y, z, vertex]) < FLAT)
+                {
                     continue;
                 }
                 if self.must.holds_face(x, y, z)

@@ -1,14 +1,14 @@
 //! Taking edges away from a vertex by flips.
 
-use crate::tetrahedra::flips::{Effort, Goal, Work};
+use crate::tetrahedra::flips::{Effort, FLAT, Goal, Work};
 use crate::tetrahedra::mesh::GHOST;
 
 /// Each round takes a look at all edges.
 const MOST_ROUNDS: usize = 8;
 /// Plain flips, no search.
-const EFFORT: Effort = Effort { depth: 0, ring: 16, tries: 0, flat: false };
+const EFFORT: Effort = Effort { depth: 0, ring: 16, tries: 0, flattest: FLAT };
 /// Flips after a flip that clears the way.
-const HARD: Effort = Effort { depth: 1, ring: 16, tries: 12, flat: false };
+const HARD: Effort = Effort { depth: 1, ring: 16, tries: 12, flattest: FLAT };
 
 impl Work {
     /// Removes edges of `s` that need not stay, until no flip removes one more: what is left of the star
