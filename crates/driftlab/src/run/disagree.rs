@@ -7,8 +7,9 @@ use serde::Serialize;
 
 use explore::StepReport;
 
-/// How far behind a frontier the other map is asked, metres.
-const BEHIND_M: f64 = 0.6;
+/// How far behind a frontier the other map is asked, metres: beyond a cell that is half seen, which a
+/// polygon knows a part of and a grid does not.
+const BEHIND_M: f64 = 2.0;
 
 /// Frontier shorter than this is nobody's quarrel, metres.
 const LEAST_M: f64 = 0.9;
@@ -62,7 +63,7 @@ pub fn disagreement(
                 continue;
             }
             let known = others.into_iter().find(|&other| {
-                [0.5, 1.0, 1.5]
+                [0.75, 1.0, 1.25]
                     .iter()
                     .all(|k| maps[other].knows(&standing, &(goal + normal * (k * BEHIND_M))))
             });
