@@ -8,6 +8,8 @@
 //!
 //! The triangulation itself is the library `spade`'s, which decides exactly. Cost: O(n log n).
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use spade::handles::FixedFaceHandle;
 use spade::{ConstrainedDelaunayTriangulation, Point2 as SpadePoint, Triangulation as _};
 
@@ -41,6 +43,13 @@ type Cdt = ConstrainedDelaunayTriangulation<SpadePoint<f64>>;
 /// while rounding to metres could make a corner cross an edge that it lies on.
 const STEPS_PER_M: f64 = 1e6;
 
+/// Beyond this floats skip whole steps.
+const MOST_STEPS: f64 = 4e15;
+
+fn unsnappable(point: &Point2) -> PlanarError {
+    PlanarError::Unsnappable { x: point.x, y: point.y, reach_m: REACH_M }
+}
+
 fn metres(point: &SpadePoint<f64>) -> Point2 {
     Point2::new(point.x / STEPS_PER_M, point.y / STEPS_PER_M)
 }
@@ -52,28 +61,36 @@ impl Triangulation {
     /// [`PlanarError::Unsnappable`] for a corner that is not finite, or too large or too small to
     /// decide exactly.
     pub fn of<T: Copy>(region: &Region<T>) -> Result<Self, PlanarError> {
-        let mut cdt = Cdt::new();
-        let mut refused_edges = 0;
+        let mut points: Vec<SpadePoint<f64>> = Vec::with_capacity(region.edge_count());
+        let mut edges: BTreeSet<[usize; 2]> = BTreeSet::new();
+        // Corners that rings share are one point.
+        let mut known: BTreeMap<[i64; 2], usize> = BTreeMap::new();
         for ring in &region.rings {
-            let mut handles = Vec::with_capacity(ring.points.len());
+            let mut numbers = Vec::with_capacity(ring.points.len());
             for point in &ring.points {
-                let refused =
-                    |_| PlanarError::Unsnappable { x: point.x, y: point.y, reach_m: REACH_M };
                 let (x, y) = ((point.x * STEPS_PER_M).round(), (point.y * STEPS_PER_M).round());
-                handles.push(cdt.insert(SpadePoint::new(x, y)).map_err(refused)?);
-            }
-            for (i, &from) in handles.iter().enumerate() {
-                let to = handles[ring.next(i)];
-                if from == to {
-                    continue;
+                // Whole steps that a float holds.
+                if !(x.abs() < MOST_STEPS && y.abs() < MOST_STEPS) {
+                    return Err(unsnappable(point));
                 }
-                if cdt.can_add_constraint(from, to) {
-                    cdt.add_constraint(from, to);
-                } else {
-                    refused_edges += 1;
+                let number = *known.entry([x as i64, y as i64]).or_insert_with(|| {
+                    points.push(SpadePoint::new(x, y));
+                    points.len() - 1
+                });
+                numbers.push(number);
+            }
+            for (i, &from) in numbers.iter().enumerate() {
+                let to = numbers[ring.next(i)];
+                if from != to {
+                    edges.insert([from.min(to), from.max(to)]);
                 }
             }
         }
+        let mut refused_edges = 0;
+        let somewhere = points.first().copied().unwrap_or(SpadePoint::new(0.0, 0.0));
+        let cdt =
+            Cdt::try_bulk_load_cdt(points, edges.into_iter().collect(), |_| refused_edges += 1)
+                .map_err(|_| unsnappable(&metres(&somewhere)))?;
         Ok(Self::inside(&cdt, region, refused_edges > 0))
     }
 

@@ -51,4 +51,4 @@ pub use lattice::{LATTICE_M, REACH_M};
 pub use operate::{
     Operation, Overlay, Source, difference, intersection, overlay, overlay_with, union, union_all,
 };
-pub use region::{EdgeLabel, Region, RegionEdge, Ring, RingEdge};
+pub use region::{EdgeLabel, Region, RegionEdge, Ring, RingEdge, winding};

@@ -34,6 +34,9 @@ pub struct Ring<T> {
     pub edges: Vec<RingEdge<T>>,
 }
 
+/// So many corners in a row are left out at most, so that thinning a long wall stays linear.
+const MOST_LEFT_OUT: usize = 32;
+
 impl<T> Ring<T> {
     /// Twice the signed area, square metres: positive for an outer ring, negative for a hole.
     pub fn twice_area_m2(&self) -> f64 {
@@ -60,7 +63,7 @@ impl<T> Ring<T> {
                 left_out.push(point);
                 let ahead = (after - from).dot(&(point - from)) > 0.0;
                 let near = |p: &Point2| point_segment_distance(p, from, &after) <= slack_m;
-                if ahead && left_out.iter().all(near) {
+                if ahead && left_out.len() <= MOST_LEFT_OUT && left_out.iter().all(near) {
                     continue;
                 }
             }
@@ -80,6 +83,25 @@ impl<T> Ring<T> {
     pub fn next(&self, i: usize) -> usize {
         if i + 1 == self.points.len() { 0 } else { i + 1 }
     }
+}
+
+/// How often a closed chain of points winds around a point, counter-clockwise; on the chain itself
+/// it may go either way. Exact. Cost: the points.
+pub fn winding(chain: impl Iterator<Item = Point2> + Clone, point: &Point2) -> i32 {
+    let mut winding = 0;
+    let ends = chain.clone().skip(1).chain(chain.clone().take(1));
+    for (from, to) in chain.zip(ends) {
+        if (from.y <= point.y) == (to.y <= point.y) {
+            continue;
+        }
+        let left = orient(&from, &to, point);
+        if from.y <= point.y && left > 0.0 {
+            winding += 1;
+        } else if from.y > point.y && left < 0.0 {
+            winding -= 1;
+        }
+    }
+    winding
 }
 
 /// One edge of a region.
@@ -149,15 +171,22 @@ impl<T: Copy> Region<T> {
 
     /// All edges, ring by ring.
     pub fn edges(&self) -> impl Iterator<Item = RegionEdge<T>> + '_ {
-        self.rings.iter().enumerate().flat_map(|(index, ring)| {
-            ring.edges.iter().enumerate().map(move |(i, edge)| RegionEdge {
-                ring: index,
-                edge: i,
-                from: ring.points[i],
-                to: ring.points[ring.next(i)],
-                label: edge.label,
-                data: edge.data,
-            })
+        (0..self.rings.len()).flat_map(|ring| self.edges_of(ring))
+    }
+
+    /// The edges of one ring.
+    ///
+    /// # Panics
+    /// If there is no such ring.
+    pub fn edges_of(&self, ring: usize) -> impl Iterator<Item = RegionEdge<T>> + '_ {
+        let Ring { points, edges } = &self.rings[ring];
+        edges.iter().enumerate().map(move |(i, edge)| RegionEdge {
+            ring,
+            edge: i,
+            from: points[i],
+            to: points[if i + 1 == points.len() { 0 } else { i + 1 }],
+            label: edge.label,
+            data: edge.data,
         })
     }
 
@@ -168,22 +197,7 @@ impl<T: Copy> Region<T> {
 
     /// Whether a point is inside; on the boundary it may go either way. Cost: the edges.
     pub fn contains(&self, point: &Point2) -> bool {
-        let mut winding = 0;
-        for ring in &self.rings {
-            for (i, from) in ring.points.iter().enumerate() {
-                let to = &ring.points[ring.next(i)];
-                if (from.y <= point.y) == (to.y <= point.y) {
-                    continue;
-                }
-                let left = orient(from, to, point);
-                if from.y <= point.y && left > 0.0 {
-                    winding += 1;
-                } else if from.y > point.y && left < 0.0 {
-                    winding -= 1;
-                }
-            }
-        }
-        winding != 0
+        self.rings.iter().map(|ring| winding(ring.points.iter().copied(), point)).sum::<i32>() != 0
     }
 
     /// The rings in groups: an outer ring and its holes. In the order of the rings.
