@@ -208,6 +208,11 @@ pub trait ExplorationMap {
         None
     }
 
+    /// How often the map has corrected its poses: 0 for maps that never do.
+    fn corrections(&self) -> u64 {
+        0
+    }
+
     /// How often the map found itself broken, and kept a view out: 0 for maps that cannot be.
     fn invalid(&self) -> u64 {
         0

@@ -5,4 +5,5 @@ mod ending;
 mod heard;
 mod options;
 mod sketch;
+mod united;
 mod ways;

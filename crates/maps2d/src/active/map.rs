@@ -16,7 +16,8 @@ use super::untwist::{Splits, untwist};
 use super::{Broken, Corner, Twisted};
 use crate::correction::{Correction, CorrectionParams};
 use crate::polygons::{
-    GivenUp, GlobalPlanner, Here, OpenFrontier, OpenParams, PolygonEvent, Tag, global_of, region_of,
+    GivenUp, GlobalPlanner, Here, OpenFrontier, OpenParams, PolygonEvent, Tag, global_of,
+    region_of, with_straight_walls,
 };
 use crate::volume::{LocalVolume, VolumeParams};
 use crate::{
@@ -67,6 +68,7 @@ pub struct ActiveArea {
     given_up: Vec<GivenUp>,
     here: Here,
     planner: GlobalPlanner,
+    aims: Aims,
     invalid: u64,
     scans: u64,
 }
@@ -84,6 +86,7 @@ impl ActiveArea {
             given_up: Vec::new(),
             here: Here::new(params.volume),
             planner: GlobalPlanner::default(),
+            aims: Aims::default(),
             invalid: 0,
             scans: 0,
         }
@@ -265,13 +268,57 @@ impl ActiveArea {
             })
             .collect();
         let all: Vec<&Region<Tag>> = placed.iter().collect();
-        union_all(&all).map(|united| united.region).unwrap_or_default()
+        union_all(&all).map(|united| with_straight_walls(&united.region)).unwrap_or_default()
     }
 
     fn corrected(&mut self, before: Vec<Se2>, corrected: bool, probe: &mut dyn MapProbe) {
-        if corrected && let Some(last) = before.len().checked_sub(1) {
+        // A correction that moves nothing leaves nothing to mend.
+        if corrected
+            && self.correction.has_moved()
+            && let Some(last) = before.len().checked_sub(1)
+        {
             self.follow_poses(&before, VertexId(last as u32), probe);
         }
+    }
+}
+
+/// Goals so near to each other are one, metres.
+const AIM_M: f64 = 0.5;
+
+/// A goal that ways led to anew more often than this is given up: as the robot moves, so does the
+/// area that reachability is judged in, and two goals may each be the nearest from where the way to
+/// the other leads.
+const MOST_AIMS: u32 = 6;
+
+/// The goals that ways have led to, and how often each was taken up anew.
+#[derive(Clone, Debug, Default)]
+struct Aims {
+    of: Vec<(VertexId, Point2, u32)>,
+    last: Option<usize>,
+}
+
+impl Aims {
+    /// Takes a goal, given in the frame of a vertex; false if it was taken up too often.
+    fn take(
+        &mut self,
+        at: Point2,
+        vertex: VertexId,
+        is_trip: bool,
+        pose: impl Fn(VertexId) -> Se2,
+    ) -> bool {
+        let goal = pose(vertex).transform(&at);
+        let near =
+            |aim: &(VertexId, Point2, u32)| (pose(aim.0).transform(&aim.1) - goal).norm() <= AIM_M;
+        let index = self.of.iter().position(near).unwrap_or_else(|| {
+            self.of.push((vertex, at, 0));
+            self.of.len() - 1
+        });
+        // A way along the graph is a trip of its own each time, though it may lead to the same place.
+        if is_trip || self.last != Some(index) {
+            self.last = Some(index);
+            self.of[index].2 += 1;
+        }
+        self.of[index].2 <= MOST_AIMS
     }
 }
 
@@ -371,21 +418,52 @@ impl ExplorationMap for ActiveArea {
     /// Inside the area by the dual graph; else back along the graph (2.9.3).
     fn route(&mut self, standing: &Standing, _clearance_m: f64) -> Option<Route> {
         let map_from_body = self.map_from_body(standing);
+        let map_from_vertex = self.correction.pose(standing.vertex);
         let active = self.area(standing.vertex);
-        let open = self.open_inside(&active);
         let region = self.region_inside(&active);
-        let through = self.planner.route(&region, &open, &map_from_body);
-        if through.is_some() {
-            return through;
-        }
-        let legs = self.links.way(standing.vertex, |vertex| {
-            vertex != standing.vertex && self.frontier_at(vertex) > 0.0
-        });
-        if let Some(legs) = legs {
-            return Some(Route::Repeat(legs));
+        // Each round gives a goal up that was chosen too often, so this ends.
+        loop {
+            let open = self.open_inside(&active);
+            let route = match self.planner.route(&region, &open, &map_from_body) {
+                Some(through) => through,
+                None => {
+                    let legs = self.links.way(standing.vertex, |vertex| {
+                        vertex != standing.vertex && self.frontier_at(vertex) > 0.0
+                    });
+                    let Some(legs) = legs else { break };
+                    Route::Repeat(legs)
+                }
+            };
+            let goals: Vec<Point2> = match &route {
+                Route::Drive(points) => {
+                    points.last().map(|goal| map_from_body.transform(goal)).into_iter().collect()
+                }
+                Route::Repeat(legs) => {
+                    let goal = legs.last().map(|&(vertex, _)| vertex);
+                    let parts = self.open.counting().flat_map(|chain| &chain.parts);
+                    let of_goal = parts.filter(|part| Some(part.tag.vertex) == goal);
+                    of_goal.map(|part| part.from + (part.to - part.from) * 0.5).collect()
+                }
+            };
+            let Some(goal) = goals.first() else { return Some(route) };
+            let (at, is_trip) =
+                (map_from_vertex.inverse_transform(goal), matches!(route, Route::Repeat(_)));
+            let pose = |vertex| self.correction.pose(vertex);
+            if self.aims.take(at, standing.vertex, is_trip, pose) {
+                return Some(route);
+            }
+            self.given_up.extend(goals.iter().map(|goal| GivenUp {
+                vertex: standing.vertex,
+                at_in_vertex: map_from_vertex.inverse_transform(goal),
+                radius_m: AIM_M,
+            }));
+            let left_m = self.open.summary().open_m;
+            self.measure();
+            if self.open.summary().open_m >= left_m {
+                break;
+            }
         }
         // What neither leads to cannot be reached.
-        let map_from_vertex = self.correction.pose(standing.vertex);
         for part in self.open.counting().flat_map(|chain| &chain.parts) {
             let middle = Point2::from((part.from.coords + part.to.coords) * 0.5);
             self.given_up.push(GivenUp {
@@ -433,6 +511,10 @@ impl ExplorationMap for ActiveArea {
     fn knows(&self, standing: &Standing, point_in_body: &Point2) -> bool {
         let point = self.map_from_body(standing).transform(point_in_body);
         self.rings.iter().map(|ring| winding(ring, &point)).sum::<i32>() > 0
+    }
+
+    fn corrections(&self) -> u64 {
+        self.correction.count()
     }
 
     fn global(&self) -> Option<GlobalBelief> {

@@ -1,7 +1,7 @@
 //! Rings of anchored corners.
 
 use geometry::Point2;
-use geometry::planar::overlay::{EdgeLabel, Region, Ring, RingEdge};
+use geometry::planar::overlay::{self, EdgeLabel, Region, Ring, RingEdge};
 use geometry::predicates::orient;
 use pose::Se2;
 use probe::VertexId;
@@ -66,20 +66,7 @@ pub(super) fn twice_area_m2(ring: &[Corner]) -> f64 {
 
 /// How often a ring winds around a point.
 pub(super) fn winding(ring: &[Corner], point: &Point2) -> i32 {
-    let mut winding = 0;
-    for (i, corner) in ring.iter().enumerate() {
-        let (from, to) = (&corner.at, &ring[next(ring, i)].at);
-        if (from.y <= point.y) == (to.y <= point.y) {
-            continue;
-        }
-        let left = orient(from, to, point);
-        if from.y <= point.y && left > 0.0 {
-            winding += 1;
-        } else if from.y > point.y && left < 0.0 {
-            winding -= 1;
-        }
-    }
-    winding
+    overlay::winding(ring.iter().map(|corner| corner.at), point)
 }
 
 pub(super) fn next(ring: &[Corner], i: usize) -> usize {

@@ -118,9 +118,10 @@ fn cross(ring: &[Corner], index: usize, edge: usize, view: &[Corner], out: &mut 
 /// many were found.
 fn follow(ring: &[Corner], index: usize, view: &[Corner], crossings: &mut Vec<Crossing>) -> usize {
     let first = crossings.len();
-    let mut known: BTreeSet<usize> =
-        crossings.iter().filter(|c| c.ring == index).map(|c| c.edge).collect();
     let starts: Vec<Crossing> = crossings.iter().copied().filter(|c| c.ring == index).collect();
+    // Edges that were asked already, and those of them that cross the view.
+    let mut known: BTreeSet<usize> = starts.iter().map(|c| c.edge).collect();
+    let mut crossed = known.clone();
     for start in starts {
         let mut edge = start.edge;
         for _ in 0..ring.len() {
@@ -130,9 +131,13 @@ fn follow(ring: &[Corner], index: usize, view: &[Corner], crossings: &mut Vec<Cr
                 false => edge.checked_sub(1).unwrap_or(ring.len() - 1),
             };
             if known.insert(edge) {
+                let before = crossings.len();
                 cross(ring, index, edge, view, crossings);
+                if crossings.len() > before {
+                    crossed.insert(edge);
+                }
             }
-            if crossings.iter().any(|c| c.ring == index && c.edge == edge) {
+            if crossed.contains(&edge) {
                 break;
             }
         }

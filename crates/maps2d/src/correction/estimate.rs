@@ -57,18 +57,27 @@ impl CorrectionParams {
     }
 }
 
+/// A vertex that moves by less, metres and radians, stays where it is for whatever hangs on it.
+const STILL: f64 = 1e-9;
+
+fn is_elsewhere(before: &Se2, after: &Se2) -> bool {
+    let motion = before.inverse_mul(after);
+    motion.translation.norm() > STILL || motion.angle().abs() > STILL
+}
+
 /// Poses of all vertices in one frame: odometry from the last correction on.
 #[derive(Clone, Debug, Default)]
 pub struct Correction {
     params: CorrectionParams,
     map_from_vertex: IdVec<VertexId, Se2>,
     corrections: u64,
+    moved: bool,
 }
 
 impl Correction {
     /// No vertex yet.
     pub fn new(params: CorrectionParams) -> Self {
-        Self { params, map_from_vertex: IdVec::new(), corrections: 0 }
+        Self { params, map_from_vertex: IdVec::new(), corrections: 0, moved: false }
     }
 
     /// `map_from_vertex` of every vertex, by vertex.
@@ -86,6 +95,12 @@ impl Correction {
         self.corrections
     }
 
+    /// Whether the last correction, or the poses that were set last, moved any vertex by more than
+    /// nothing: without drift they do not.
+    pub fn has_moved(&self) -> bool {
+        self.moved
+    }
+
     /// Makes room for a vertex; one without edges lies at the origin.
     pub fn cover(&mut self, vertex: VertexId) {
         while self.map_from_vertex.next_id() <= vertex {
@@ -95,9 +110,11 @@ impl Correction {
 
     /// Takes poses as they are.
     pub fn set(&mut self, map_from_vertex: &[Se2]) {
+        self.moved = false;
         for (i, pose) in map_from_vertex.iter().enumerate() {
             let vertex = VertexId(i as u32);
             self.cover(vertex);
+            self.moved |= is_elsewhere(&self.map_from_vertex[vertex], pose);
             self.map_from_vertex[vertex] = *pose;
         }
     }
@@ -164,6 +181,7 @@ impl Correction {
             .map(|(a, b)| (a.translation - b.translation).norm())
             .fold(0.0, f64::max);
         self.corrections += 1;
+        self.moved = before.iter().zip(&solution.poses).any(|(a, b)| is_elsewhere(a, b));
         probe.emit(CorrectionEvent::Corrected {
             new_places,
             factors: factors_len,

@@ -119,6 +119,10 @@ impl ExplorationMap for CorrectedGrid {
         self.grid.knows(standing, point_in_body)
     }
 
+    fn corrections(&self) -> u64 {
+        self.correction.count()
+    }
+
     fn global(&self) -> Option<GlobalBelief> {
         self.grid.global()
     }

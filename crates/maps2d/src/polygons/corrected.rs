@@ -8,8 +8,10 @@ use probe::{EdgeId, IdVec, Probe, VertexId};
 use sensing::Scan;
 
 use super::raster::global_of;
-use super::tag::with_straight_walls;
-use super::{GivenUp, GlobalPlanner, Here, OpenFrontier, OpenParams, PolygonEvent, Tag, region_of};
+use super::{
+    GivenUp, GlobalPlanner, Here, OpenFrontier, OpenParams, PolygonEvent, Tag, region_of,
+    with_straight_walls,
+};
 use crate::correction::{Correction, CorrectionParams};
 use crate::volume::{LocalVolume, Samples, VolumeParams, build};
 use crate::{
@@ -133,7 +135,8 @@ impl CorrectedPolygons {
     }
 
     fn corrected(&mut self, corrected: bool, probe: &mut dyn MapProbe) {
-        if corrected {
+        // Without drift a correction moves nothing that the lattice of unions could tell.
+        if corrected && self.correction.has_moved() {
             self.rebuild(probe);
         }
     }
@@ -264,6 +267,10 @@ impl ExplorationMap for CorrectedPolygons {
 
     fn knows(&self, standing: &Standing, point_in_body: &Point2) -> bool {
         self.region.contains(&self.map_from_body(standing).transform(point_in_body))
+    }
+
+    fn corrections(&self) -> u64 {
+        self.correction.count()
     }
 
     fn global(&self) -> Option<GlobalBelief> {

@@ -46,4 +46,5 @@ pub use open::{OpenChain, OpenFrontier, OpenParams, OpenPart};
 pub(crate) use planner::{GivenUp, GlobalPlanner};
 pub use raster::cells_of;
 pub(crate) use raster::global_of;
+pub(crate) use tag::with_straight_walls;
 pub use tag::{Tag, region_of};

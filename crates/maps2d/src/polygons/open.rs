@@ -1,5 +1,7 @@
 //! Open frontier of a region: what counts, in chains.
 
+use std::collections::BTreeMap;
+
 use geometry::planar::overlay::{EdgeLabel, Region, RegionEdge};
 use geometry::planar::{EdgeLedger, Interval, box_gap, near_segment};
 use geometry::{Point2, Vector2};
@@ -95,7 +97,7 @@ enum Gone {
 impl OpenFrontier {
     /// Reads the open frontier off a region. `given_up` are discs, centre and radius, in its frame.
     ///
-    /// Cost: frontier edges times obstacle edges nearby along x.
+    /// Cost: frontier edges times obstacle edges in the cells around them.
     pub fn of(region: &Region<Tag>, params: &OpenParams, given_up: &[(Point2, f64)]) -> Self {
         let walls = Walls::of(region);
         let mut found = Self::default();
@@ -103,7 +105,7 @@ impl OpenFrontier {
         let mut at = 0;
         for (index, outline) in region.rings.iter().enumerate() {
             ring.clear();
-            for edge in region_edges(region, index) {
+            for edge in region.edges_of(index) {
                 if edge.label == EdgeLabel::Frontier {
                     found.edge(&edge, &walls, params, given_up, &mut ring);
                 }
@@ -208,42 +210,71 @@ impl OpenFrontier {
     }
 }
 
-/// Obstacle edges by their least x.
+/// Side of the cells by which walls are found, metres.
+const BUCKET_M: f64 = 1.0;
+
+/// Obstacle edges by the cells that they may reach.
 struct Walls {
     edges: Vec<RegionEdge<Tag>>,
-    /// The widest of them along x, metres.
-    widest_m: f64,
+    /// The edges whose box touches a cell, ascending.
+    buckets: BTreeMap<(i64, i64), Vec<u32>>,
+    /// Edges whose box touches too many cells.
+    large: Vec<u32>,
 }
 
 impl Walls {
     fn of(region: &Region<Tag>) -> Self {
-        let low = |edge: &RegionEdge<Tag>| edge.from.x.min(edge.to.x);
-        let mut edges: Vec<RegionEdge<Tag>> =
+        let edges: Vec<RegionEdge<Tag>> =
             region.edges().filter(|edge| edge.label == EdgeLabel::Obstacle).collect();
-        edges.sort_by(|a, b| low(a).total_cmp(&low(b)));
-        let widths = edges.iter().map(|edge| (edge.to.x - edge.from.x).abs());
-        let widest_m = widths.fold(0.0, f64::max);
-        Self { edges, widest_m }
+        let mut buckets: BTreeMap<(i64, i64), Vec<u32>> = BTreeMap::new();
+        let mut large = Vec::new();
+        for (number, edge) in edges.iter().enumerate() {
+            match cells_around(&edge.from, &edge.to, 0.0) {
+                Some(cells) => {
+                    cells.for_each(|cell| buckets.entry(cell).or_default().push(number as u32))
+                }
+                None => large.push(number as u32),
+            }
+        }
+        Self { edges, buckets, large }
     }
 
-    /// Those that may come within a radius of an edge.
-    fn near(&self, edge: &RegionEdge<Tag>, radius_m: f64) -> &[RegionEdge<Tag>] {
-        let low = |edge: &RegionEdge<Tag>| edge.from.x.min(edge.to.x);
-        let (from, to) = (low(edge) - radius_m, edge.from.x.max(edge.to.x) + radius_m);
-        let first = self.edges.partition_point(|wall| low(wall) + self.widest_m < from);
-        let end = self.edges.partition_point(|wall| low(wall) <= to);
-        self.edges.get(first..end).unwrap_or(&[])
+    /// Those that may come within a radius of an edge, in the order of the region.
+    fn near(
+        &self,
+        edge: &RegionEdge<Tag>,
+        radius_m: f64,
+    ) -> impl Iterator<Item = &RegionEdge<Tag>> {
+        let mut numbers: Vec<u32> = match cells_around(&edge.from, &edge.to, radius_m) {
+            Some(cells) => {
+                let found = cells.filter_map(|cell| self.buckets.get(&cell)).flatten();
+                found.chain(&self.large).copied().collect()
+            }
+            None => (0..self.edges.len() as u32).collect(),
+        };
+        numbers.sort_unstable();
+        numbers.dedup();
+        numbers.into_iter().map(|number| &self.edges[number as usize])
     }
 }
 
-fn region_edges(region: &Region<Tag>, index: usize) -> impl Iterator<Item = RegionEdge<Tag>> + '_ {
-    let ring = &region.rings[index];
-    ring.edges.iter().enumerate().map(move |(i, edge)| RegionEdge {
-        ring: index,
-        edge: i,
-        from: ring.points[i],
-        to: ring.points[ring.next(i)],
-        label: edge.label,
-        data: edge.data,
-    })
+/// A box that touches more cells than this along one axis is not looked up by them.
+const MOST_CELLS: f64 = 64.0;
+
+/// The cells that the box around a segment touches, widened by a margin; `None` for too many, and for
+/// what is too far out to count cells.
+fn cells_around(
+    from: &Point2,
+    to: &Point2,
+    margin_m: f64,
+) -> Option<impl Iterator<Item = (i64, i64)>> {
+    let (low, high) = (from.inf(to), from.sup(to));
+    let index = |metres: f64| (metres / BUCKET_M).floor();
+    let span = |low: f64, high: f64| {
+        let (first, last) = (index(low - margin_m), index(high + margin_m));
+        let counts = last - first < MOST_CELLS && first.abs().max(last.abs()) < 1e15;
+        counts.then_some(first as i64..=last as i64)
+    };
+    let (columns, rows) = (span(low.x, high.x)?, span(low.y, high.y)?);
+    Some(columns.flat_map(move |column| rows.clone().map(move |row| (column, row))))
 }

@@ -14,6 +14,13 @@ use crate::{Candidate, Route, Standing};
 /// Where along open frontier a goal is put: the middle first, then the quarters.
 const GOAL_SHARES: [f64; 3] = [0.5, 0.25, 0.75];
 
+/// Legs of a way are cut into pieces no longer than this, metres: a triangle may be longer than what
+/// is seen from one place, and a robot goes by what it sees.
+const LEG_M: f64 = 0.9;
+
+/// Points of a way so near to the robot say nothing about where it goes, metres.
+const AT_ROBOT_M: f64 = 0.05;
+
 /// A place where frontier was given up, fixed to a vertex so that it moves with its correction.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) struct GivenUp {
@@ -114,9 +121,10 @@ impl GlobalPlanner {
         let start = Point2::from(map_from_body.translation);
         let dual = DualGraph::new(&mesh, &goals, &start);
         let way = dual.way(&mut self.scratch);
-        let in_body = way
-            .as_ref()
-            .map(|way| way.iter().map(|point| map_from_body.inverse_transform(point)).collect());
+        let in_body = way.as_ref().map(|way| {
+            let in_body = way.iter().map(|point| map_from_body.inverse_transform(point));
+            in_short_legs(&in_body.collect::<Vec<_>>())
+        });
         self.planned = Some((dual, way.unwrap_or_default()));
         in_body.map(Route::Drive)
     }
@@ -125,4 +133,19 @@ impl GlobalPlanner {
     pub fn take_planned(&mut self) -> Option<(DualGraph, Vec<Point2>)> {
         self.planned.take()
     }
+}
+
+/// A way from the origin with more points on its legs, and none where it starts.
+fn in_short_legs(way: &[Point2]) -> Vec<Point2> {
+    let mut points = Vec::new();
+    let mut from = Point2::origin();
+    for to in way {
+        let along = to - from;
+        let pieces = (along.norm() / LEG_M).clamp(1.0, 1e6).ceil() as u32;
+        let on = (1..pieces).map(|i| from + along * (f64::from(i) / f64::from(pieces)));
+        points.extend(on.chain([*to]).filter(|point| point.coords.norm() >= AT_ROBOT_M));
+        from = *to;
+    }
+    // A goal where the robot stands is one still.
+    if points.is_empty() { way.last().copied().into_iter().collect() } else { points }
 }

@@ -41,7 +41,7 @@ pub fn region_of(vertex: VertexId, volume: &LocalVolume, map_from_vertex: &Se2) 
 const STRAIGHT_M: f64 = 1e-3;
 
 /// A region without the corners on straight walls; an edge keeps the tag of its first piece.
-pub(super) fn with_straight_walls(region: &Region<Tag>) -> Region<Tag> {
+pub(crate) fn with_straight_walls(region: &Region<Tag>) -> Region<Tag> {
     let solid = |edge: &RingEdge<Tag>| edge.label == EdgeLabel::Obstacle;
     let thinned = region.thinned(STRAIGHT_M, |a, b| solid(a) && solid(b));
     // Straight edges may cross others that were near: once more through the overlay.
