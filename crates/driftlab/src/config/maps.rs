@@ -131,7 +131,7 @@ pub struct GridMap {
 
 impl Default for GridMap {
     fn default() -> Self {
-        Self { poses: Poses::Odometry, cell_m: 1.0, cell_margin: 0.1, occlusion_gap_m: 1.0 }
+        Self { poses: Poses::Odometry, cell_m: 1.0, cell_margin: 0.05, occlusion_gap_m: 1.0 }
     }
 }
 
@@ -171,7 +171,7 @@ impl Default for GridCorrectedMap {
     fn default() -> Self {
         Self {
             cell_m: 1.0,
-            cell_margin: 0.1,
+            cell_margin: 0.05,
             occlusion_gap_m: 1.0,
             place_sigma_m: 0.01,
             place_sigma_deg: 0.1,

@@ -32,7 +32,7 @@ pub struct GridParams {
 
 impl Default for GridParams {
     fn default() -> Self {
-        Self { cell_m: 1.0, cell_margin: 0.1, volume: VolumeParams::default() }
+        Self { cell_m: 1.0, cell_margin: 0.05, volume: VolumeParams::default() }
     }
 }
 
