@@ -20,6 +20,6 @@ pub use inspect::{
 };
 pub use optimisation::{DrawnPose, OPTIMIZER_EVENTS, OptimisationOptions, OptimisationRecording};
 pub use options::{Centre, Every, Family, Level, MapOptions, RecordingOptions};
-pub use recorder::{Recorder, StepEnd};
+pub use recorder::{Quarrel, Recorder, StepEnd};
 pub use recording::Recording;
 pub use solid::{BooleanRecording, ReduceRecording, SolidOptions, TetrahedraRecording};

@@ -34,6 +34,9 @@ pub(crate) const WORST: Rgba = rgb(235, 190, 60);
 pub(crate) const REFUSED: Rgba = rgb(150, 150, 150);
 pub(crate) const GIVEN_UP: Rgba = rgb(120, 60, 160);
 
+/// Where the beliefs of several maps first part.
+pub(crate) const QUARREL: Rgba = rgb(0, 0, 0);
+
 pub(crate) const HIT: Rgba = rgb(200, 20, 40);
 pub(crate) const MISS: Rgba = rgb(120, 170, 220);
 pub(crate) const NOTHING_CLOSED: Rgba = rgb(170, 170, 170);

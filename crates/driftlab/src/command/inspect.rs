@@ -19,6 +19,8 @@ pub(super) fn inspect(args: &InspectArgs, out: &Out) -> Result<(), Failure> {
         out.note(&format!("warning: {}: {damage}; read up to there", file.display()));
     }
     let mut json = inspection.to_json();
+    let quarrel = inspection.metrics.as_ref().and_then(|metrics| metrics.get("disagreement"));
+    json["disagreement"] = quarrel.cloned().unwrap_or(Value::Null);
     let mut text = shown(&inspection);
     if let Some(other) = &args.diff {
         let other = recording(other)?;

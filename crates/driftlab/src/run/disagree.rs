@@ -31,10 +31,28 @@ pub struct Disagreement {
     pub frontier_y_m: f64,
     /// Its length, metres.
     pub length_m: f64,
+    /// The same place as the robot sees it, body frame, metres; for drawing.
+    #[serde(skip)]
+    pub frontier_in_body: Point2,
     /// `drift`: what lies behind was never truly seen, so the map that claims to know it has laid
     /// another place over it. `not_consolidated`: it was seen, and the map with the frontier does not
     /// count that.
     pub cause: &'static str,
+}
+
+impl Disagreement {
+    /// Who says what, and why, in a line.
+    pub fn in_words(&self) -> String {
+        let Self { open_in, known_in, step, frontier_x_m, frontier_y_m, length_m, .. } = self;
+        let why = match self.cause {
+            "drift" => "what lies behind was never seen: drift has laid another place over it",
+            _ => "what lies behind was seen, from a place that is not near in the graph",
+        };
+        format!(
+            "step {step}: {open_in} sees {length_m:.1} m of frontier at ({frontier_x_m:.1}, \
+             {frontier_y_m:.1}), {known_in} believes to know what lies behind; {why}"
+        )
+    }
 }
 
 /// The first frontier in view of any map behind which another map knows something.
@@ -79,6 +97,7 @@ pub fn disagreement(
                 frontier_x_m: frontier.x,
                 frontier_y_m: frontier.y,
                 length_m: candidate.length_m,
+                frontier_in_body: goal,
                 cause: if truly_seen { "not_consolidated" } else { "drift" },
             });
         }

@@ -14,7 +14,7 @@ use worlds::{RobotParams, SimRobot, World2d};
 use super::disagree::{Disagreement, disagreement};
 use super::sides::{AtWork, Side, Telling, TruePoses, map_of};
 use super::timed::{TimedProbe, TimedRobot};
-use super::{MapMetrics, MapTiming, StepRow, StepSeen, Watch, quantile};
+use super::{CorrectionTiming, MapMetrics, MapTiming, StepRow, StepSeen, Watch, quantile};
 use crate::config::Config;
 
 /// Memory is asked for every so many steps: the answer costs a walk over the map.
@@ -75,7 +75,8 @@ pub fn drive<W: Watch>(
         for (rider, map) in riders.iter_mut().zip(explorer.maps()) {
             rider.step(step, &explorer, &report, map.as_ref(), &witness);
         }
-        if kinds.len() > 1 && quarrel.is_none() {
+        let asked = kinds.len() > 1 && quarrel.is_none();
+        if asked {
             quarrel = disagreement(step, &report, kinds, explorer.maps_mut(), &witness);
             // Asking is nobody's step.
             (0..kinds.len()).for_each(|map| _ = at_work.take(map));
@@ -87,12 +88,13 @@ pub fn drive<W: Watch>(
             witness: &witness,
             newly_seen: &newly_seen,
             rows: &rows,
+            disagreement: quarrel.as_ref().filter(|_| asked),
         };
         let start = Instant::now();
         watch.step_ends(&end)?;
         cost.watching += start.elapsed();
         rows.first().copied().into_iter().for_each(&mut *on_step);
-        costs.add(&cost);
+        costs.add(step, &cost);
         step += 1;
         if report.ending.is_some() {
             break report;
@@ -136,13 +138,16 @@ fn timed_step<W: Watch>(
     if let Some(first) = own.first_mut() {
         *first = whole.saturating_sub(of_others);
     }
-    (report, Cost { own, watching })
+    let corrections = (0..count).map(|map| at_work.take_corrections(map)).collect();
+    (report, Cost { own, corrections, watching })
 }
 
 /// The time of one step.
 struct Cost {
     /// Of each map, and of the policy that the first of them steers.
     own: Vec<Duration>,
+    /// Of the corrections of each map.
+    corrections: Vec<Vec<Duration>>,
     /// Of whoever watches.
     watching: Duration,
 }
@@ -150,23 +155,38 @@ struct Cost {
 /// The times of all steps, microseconds.
 struct Costs {
     own: Vec<Vec<f64>>,
+    corrections: Vec<Vec<CorrectionTiming>>,
     watching: Vec<f64>,
 }
 
 impl Costs {
     fn new(maps: usize) -> Self {
-        Self { own: vec![Vec::new(); maps], watching: Vec::new() }
+        Self {
+            own: vec![Vec::new(); maps],
+            corrections: vec![Vec::new(); maps],
+            watching: Vec::new(),
+        }
     }
 
-    fn add(&mut self, cost: &Cost) {
+    fn add(&mut self, step: u64, cost: &Cost) {
         for (all, own) in self.own.iter_mut().zip(&cost.own) {
             all.push(own.as_secs_f64() * 1e6);
+        }
+        for (all, own) in self.corrections.iter_mut().zip(&cost.corrections) {
+            all.extend(own.iter().map(|one| CorrectionTiming { step, secs: one.as_secs_f64() }));
         }
         self.watching.push(cost.watching.as_secs_f64() * 1e6);
     }
 
     fn timing(&self, map: usize, map_bytes_peak: u64, wall_secs: f64) -> MapTiming {
+        let corrections = &self.corrections[map];
+        let micros: Vec<f64> = corrections.iter().map(|one| one.secs * 1e6).collect();
+        let of_corrections = |q| (!micros.is_empty()).then(|| quantile(&micros, q));
         MapTiming {
+            correction_micros_median: of_corrections(0.5),
+            correction_micros_p99: of_corrections(0.99),
+            correction_secs: corrections.iter().map(|one| one.secs).sum(),
+            corrections: corrections.clone(),
             step_micros_median: quantile(&self.own[map], 0.5),
             step_micros_p99: quantile(&self.own[map], 0.99),
             record_micros_median: quantile(&self.watching, 0.5),
@@ -283,6 +303,7 @@ impl Rider {
             backtracking_share: explorer.backtracking_share(),
             turning_rad: tally.turning_rad,
             vertices: graph.vertex_count() as u64,
+            corrections: map.corrections(),
             map_invalid: map.invalid(),
             free_iou: accuracy.map(|a| a.free_iou),
             wall_distance_m: accuracy.and_then(|a| a.wall_distance_m),

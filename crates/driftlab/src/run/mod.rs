@@ -33,7 +33,10 @@ pub use folder::{FolderError, RunFolder, names};
 pub use place::{Place, build_place};
 pub use provenance::{GIT_HASH, Input, Provenance, VERSION};
 pub use record::start_recording;
-pub use report::{MapMetrics, MapTiming, MetricsReport, TimingReport, quantile, to_file, to_json};
+pub use report::{
+    CorrectionTiming, MapMetrics, MapTiming, MetricsReport, TimingReport, quantile, to_file,
+    to_json,
+};
 pub use session::{Outcome, RunError, files, run_experiment};
 pub use sides::AtWork;
 pub use steps::{StepRow, to_parquet};

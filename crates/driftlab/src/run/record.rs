@@ -2,9 +2,10 @@
 
 use std::path::Path;
 
+use geometry::Point2;
 use instrument::{
-    Every, Family, InstrumentError, Level, MapOptions, Recorder, Recording, RecordingOptions,
-    StepEnd,
+    Every, Family, InstrumentError, Level, MapOptions, Quarrel, Recorder, Recording,
+    RecordingOptions, StepEnd,
 };
 use metrics::Coverage;
 use worlds::World2d;
@@ -76,6 +77,14 @@ impl Watch for Recorder {
 
     fn step_ends(&mut self, end: &StepSeen<'_>) -> Result<(), InstrumentError> {
         let Some(row) = end.rows.first() else { return Ok(()) };
+        if let Some(found) = end.disagreement {
+            let quarrel = Quarrel {
+                at_in_world: Point2::new(found.frontier_x_m, found.frontier_y_m),
+                at_in_body: found.frontier_in_body,
+                text: &found.in_words(),
+            };
+            self.disagreed(&end.report.standing, &quarrel);
+        }
         let drift_m = (row.world_from_body.translation - row.odom_from_body.translation).norm();
         self.end_step(&StepEnd {
             standing: end.report.standing,

@@ -66,6 +66,8 @@ pub struct MapMetrics {
     pub turning_rad: f64,
     /// Vertices of the pose graph.
     pub vertices: u64,
+    /// How often the map corrected its poses.
+    pub corrections: u64,
     /// How often the map found itself broken, and kept a view out.
     pub map_invalid: u64,
     /// Intersection over union of believed and true free space; null without a global frame.
@@ -99,10 +101,28 @@ pub struct MapTiming {
     pub record_micros_median: f64,
     /// 99th percentile of the same.
     pub record_micros_p99: f64,
+    /// Median time of a correction, the optimisation and all that the map did anew for it,
+    /// microseconds; null without one.
+    pub correction_micros_median: Option<f64>,
+    /// 99th percentile of the same.
+    pub correction_micros_p99: Option<f64>,
+    /// Time of all corrections together, seconds.
+    pub correction_secs: f64,
+    /// Each correction, in order; of single runs only.
+    pub corrections: Vec<CorrectionTiming>,
     /// Most memory that the map held, bytes.
     pub map_bytes_peak: u64,
     /// Time of the run of this map, seconds.
     pub wall_secs: f64,
+}
+
+/// What one correction cost.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct CorrectionTiming {
+    /// Step of the loop.
+    pub step: u64,
+    /// The optimisation, and all that the map did anew for it, seconds.
+    pub secs: f64,
 }
 
 fn as_object<T: Serialize, S: serde::Serializer>(

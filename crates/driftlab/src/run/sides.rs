@@ -21,6 +21,7 @@ use posegraph::PoseGraph;
 use probe::{EdgeId, IdVec, VertexId};
 use sensing::{Odometry, PlaceMatch, Repeated, Robot, Scan};
 
+use super::timed::TimedProbe;
 use crate::config::{Config, Poses};
 
 /// The map of a kind, if the config builds it.
@@ -107,6 +108,7 @@ impl Robot for Telling<'_> {
 pub struct AtWork {
     current: Arc<AtomicUsize>,
     nanos: Arc<[AtomicU64]>,
+    corrections: Arc<[Mutex<Vec<Duration>>]>,
 }
 
 impl AtWork {
@@ -115,6 +117,7 @@ impl AtWork {
         Self {
             current: Arc::new(AtomicUsize::new(usize::MAX)),
             nanos: (0..maps).map(|_| AtomicU64::new(0)).collect(),
+            corrections: (0..maps).map(|_| Mutex::default()).collect(),
         }
     }
 
@@ -127,6 +130,13 @@ impl AtWork {
     /// The time that a map was at work since this was asked last.
     pub(super) fn take(&self, map: usize) -> Duration {
         Duration::from_nanos(self.nanos[map].swap(0, Ordering::Relaxed))
+    }
+
+    /// What each correction of a map has cost since this was asked last: the optimisation, and all
+    /// that the map did anew for it.
+    pub(super) fn take_corrections(&self, map: usize) -> Vec<Duration> {
+        let mut all = self.corrections[map].lock().unwrap_or_else(PoisonError::into_inner);
+        std::mem::take(&mut *all)
     }
 }
 
@@ -155,6 +165,25 @@ impl Side {
         self.at_work.current.store(usize::MAX, Ordering::Relaxed);
         result
     }
+
+    /// As [`timed`](Self::timed); a correction that comes of it is noted with its own time, without
+    /// what listening took.
+    fn correcting(
+        &mut self,
+        probe: &mut dyn MapProbe,
+        work: impl FnOnce(&mut dyn ExplorationMap, &mut dyn MapProbe),
+    ) {
+        let before = self.inner.corrections();
+        let start = Instant::now();
+        let at_work = self.at_work.clone();
+        let mut heard = TimedProbe::new(probe, &at_work, 0);
+        self.timed(|map| work(map, &mut heard));
+        let spent = start.elapsed().saturating_sub(heard.spent);
+        if self.inner.corrections() > before {
+            let all = &self.at_work.corrections[self.index];
+            all.lock().unwrap_or_else(PoisonError::into_inner).push(spent);
+        }
+    }
 }
 
 impl ExplorationMap for Side {
@@ -163,11 +192,11 @@ impl ExplorationMap for Side {
     }
 
     fn edges_added(&mut self, graph: &PoseGraph, edges: &[EdgeId], probe: &mut dyn MapProbe) {
-        self.timed(|map| map.edges_added(graph, edges, probe));
+        self.correcting(probe, |map, probe| map.edges_added(graph, edges, probe));
     }
 
     fn edge_withdrawn(&mut self, graph: &PoseGraph, edge: EdgeId, probe: &mut dyn MapProbe) {
-        self.timed(|map| map.edge_withdrawn(graph, edge, probe));
+        self.correcting(probe, |map, probe| map.edge_withdrawn(graph, edge, probe));
     }
 
     fn poses_reestimated(&mut self, map_from_vertex: &[Se2], probe: &mut dyn MapProbe) {
@@ -241,6 +270,10 @@ impl ExplorationMap for Side {
 
     fn global(&self) -> Option<GlobalBelief> {
         self.inner.global()
+    }
+
+    fn corrections(&self) -> u64 {
+        self.inner.corrections()
     }
 
     fn invalid(&self) -> u64 {

@@ -5,7 +5,7 @@ use metrics::{Coverage, Witness};
 use probe::Off;
 use worlds::World2d;
 
-use super::{AtWork, StepRow};
+use super::{AtWork, Disagreement, StepRow};
 
 /// A listener of everything that one robot and its maps tell, and of the truth beside it.
 pub trait Watch: ExploreProbe {
@@ -43,6 +43,8 @@ pub struct StepSeen<'a> {
     pub newly_seen: &'a [usize],
     /// The rows of the maps in `steps.parquet`, the steering one first.
     pub rows: &'a [&'a StepRow],
+    /// The first disagreement of the maps, at the step at which it was found.
+    pub disagreement: Option<&'a Disagreement>,
 }
 
 impl Watch for Off {

@@ -221,6 +221,8 @@ fn flatten(value: &Value, path: &str, row: &mut Row) {
                 flatten(value, &path, row);
             }
         }
+        // Lists are for single runs.
+        Value::Array(_) => {}
         plain => row.push((path.to_owned(), Cell::from_json(plain))),
     }
 }

@@ -1,6 +1,7 @@
 //! Rows held back per entity and sent together as columns: a row costs a push, not a message.
 
 mod growing;
+mod labels;
 mod lines;
 mod numbers;
 mod points;
@@ -12,6 +13,7 @@ mod tiles;
 mod times;
 
 pub(crate) use growing::Growing;
+pub(crate) use labels::Labels;
 pub(crate) use lines::Lines;
 pub(crate) use numbers::Numbers;
 pub(crate) use points::Points;

@@ -54,6 +54,11 @@ pub(crate) fn about(options: &RecordingOptions) -> String {
         ("green to yellow dots", "candidates, from the best to the worst; grey: refused"),
         ("magenta line", "place edge of the pose graph (true view, where it outlines one)"),
         ("teal line", "the trajectory after the last correction; pale: before it"),
+        (
+            "black ring",
+            "where the maps of one robot first disagree about a frontier: one sees it, another believes \
+             to know what lies behind",
+        ),
         ("blue line", "path: true where it lies in the truth, odometry in the pose graph"),
     ] {
         page.push_str(&format!("| {colour} | {what} |\n"));
@@ -72,6 +77,12 @@ pub(crate) fn result(metrics: &serde_json::Value) -> String {
     };
     if let Some(all) = metrics.as_object() {
         for (key, value) in all.iter().filter(|(_, value)| !value.is_object()) {
+            page.push_str(&format!("- {key}: {}\n", plain(value)));
+        }
+    }
+    if let Some(quarrel) = metrics.get("disagreement").and_then(serde_json::Value::as_object) {
+        page.push_str("\nWhere beliefs first disagree:\n\n");
+        for (key, value) in quarrel {
             page.push_str(&format!("- {key}: {}\n", plain(value)));
         }
     }

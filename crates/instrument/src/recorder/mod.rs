@@ -10,10 +10,12 @@ mod happened;
 mod places;
 mod planner;
 mod polygons;
+mod quarrel;
 mod sensing;
 mod steps;
 mod truth;
 
+pub use quarrel::Quarrel;
 pub use steps::{Recorder, StepEnd};
 
 use geometry::Point2;

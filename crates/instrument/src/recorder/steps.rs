@@ -16,6 +16,7 @@ use super::graph::Graph;
 use super::happened::Happened;
 use super::places::Places;
 use super::planner::Planner;
+use super::quarrel::Quarrels;
 use super::truth::Truth;
 use crate::columns::{Now, Numbers, Rgba, eye, fixed_pose};
 use crate::{Centre, Every, Family, InstrumentError, Level, MapOptions};
@@ -73,6 +74,7 @@ pub(super) struct Inner {
     pub corrected: Corrected,
     pub planner: Planner,
     pub happened: Happened,
+    pub quarrels: Quarrels,
     truth: Truth,
     numbers: BTreeMap<String, Numbers>,
     held_steps: u32,
@@ -104,6 +106,7 @@ impl Recorder {
                 corrected: Corrected::new(name),
                 planner: Planner::new(name),
                 happened: Happened::new(name),
+                quarrels: Quarrels::new(name, map.centre),
                 truth: Truth::new(name),
                 name: name.to_owned(),
                 stream,
@@ -150,6 +153,8 @@ impl Recorder {
         if let Some(inner) = &mut self.inner {
             inner.now.step = step as i64;
             inner.set_distance(distance_m, sim_time_secs);
+            let now = inner.now;
+            inner.quarrels.begin_step(&now);
         }
     }
 
@@ -300,6 +305,7 @@ impl Inner {
         self.corrected.send(&self.stream)?;
         self.planner.send(&self.stream)?;
         self.happened.send(&self.stream)?;
+        self.quarrels.send(&self.stream)?;
         self.numbers.values_mut().try_for_each(|numbers| numbers.send(&self.stream))
     }
 }
