@@ -11,10 +11,26 @@ use crate::table::Cell;
 /// The numbers, with their sources.
 const PUBLISHED: &str = include_str!("published.toml");
 
-#[derive(Debug, Deserialize)]
+#[derive(Debug, Default, Deserialize)]
 #[serde(deny_unknown_fields)]
 struct Page {
     number: Vec<Published>,
+    reason: Vec<Reason>,
+}
+
+/// Why our numbers differ from published ones, as far as it is known.
+#[derive(Debug, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub(crate) struct Reason {
+    /// Keys of a config, and the values that they must have.
+    #[serde(rename = "where", default)]
+    setting: BTreeMap<String, toml::Value>,
+    /// The maps that it speaks of.
+    maps: Vec<String>,
+    /// The measured numbers that it speaks of.
+    what: Vec<String>,
+    /// The reason.
+    text: String,
 }
 
 /// What one source tells of one setting.
@@ -60,21 +76,45 @@ impl Beside {
     }
 }
 
+fn page() -> &'static Page {
+    static PAGE: OnceLock<Page> = OnceLock::new();
+    PAGE.get_or_init(|| toml::from_str(PUBLISHED).unwrap_or_default())
+}
+
 fn published() -> &'static [Published] {
-    static PAGE: OnceLock<Vec<Published>> = OnceLock::new();
-    PAGE.get_or_init(|| {
-        toml::from_str::<Page>(PUBLISHED).map(|page| page.number).unwrap_or_default()
+    &page().number
+}
+
+/// Whether a config has all these values at a group.
+fn fits(setting: &BTreeMap<String, toml::Value>, study: &Study, group: &Group) -> bool {
+    setting.iter().all(|(key, value)| {
+        study.value(group, key).is_some_and(|ours| same(ours, &Cell::from_toml(value)))
     })
 }
 
 impl Published {
     /// Whether it speaks of this group.
     fn fits(&self, study: &Study, group: &Group) -> bool {
-        self.maps.contains(&group.map)
-            && self.setting.iter().all(|(key, value)| {
-                study.value(group, key).is_some_and(|ours| same(ours, &Cell::from_toml(value)))
-            })
+        self.maps.contains(&group.map) && fits(&self.setting, study, group)
     }
+}
+
+/// Differences beyond this share want a reason, per cent of what was published.
+const WANTS_REASON: f64 = 10.0;
+
+/// The known reasons for those differences that a study shows, each once.
+pub(crate) fn reasons(study: &Study) -> Vec<&'static str> {
+    let shown = |reason: &Reason| {
+        study.groups.iter().any(|group| {
+            reason.maps.contains(&group.map)
+                && fits(&reason.setting, study, group)
+                && beside(study, group).iter().any(|one| {
+                    reason.what.contains(&one.what)
+                        && one.difference().is_none_or(|by| by.abs() > WANTS_REASON)
+                })
+        })
+    };
+    page().reason.iter().filter(|reason| shown(reason)).map(|r| r.text.as_str()).collect()
 }
 
 fn same(a: &Cell, b: &Cell) -> bool {
@@ -144,6 +184,7 @@ mod tests {
         let page: Page = toml::from_str(PUBLISHED).expect("our own page");
         assert_eq!(page.number.len(), 27 + 8 + 6);
         assert_eq!(published().len(), page.number.len());
+        assert!(!page.reason.is_empty());
     }
 
     #[test]
@@ -158,6 +199,7 @@ mod tests {
         assert_eq!(noise.difference(), Some(0.0));
         assert_eq!(told("d_exp_m", "fig. 6").map(|one| one.ours), Some(None));
         assert_eq!(told("success", "fig. 6").map(|one| one.published), Some(1.0));
+        assert!(!reasons(&self::study("grid", 0.5)).is_empty(), "it is 150 % off");
         assert!(told("d_max_m", "fig. 8").is_some(), "and the radius sweep");
         assert!(
             beside(&study, &Group { map: "other".into(), ..study.groups[0].clone() }).is_empty()

@@ -4,6 +4,7 @@ use super::chart::Chart;
 use super::curves::coverage_plots;
 use super::over_axes::{QUANTITIES, axis_plots, times_plot};
 use super::page::{Plot, Section};
+use super::published::reasons;
 use super::tables::{accuracy, costs, published, results, times};
 use super::{ReportError, Study};
 
@@ -45,6 +46,10 @@ fn one_study(study: &Study, stem: &str, all: &mut Vec<Section>) -> Result<(), Re
         let told = "Means beside the published ones; the difference is ours less theirs, as a share \
                     of theirs. `success` is the share of runs that ended complete and true.";
         all.push(Section { table: Some(table), ..part("Beside the published numbers", told) });
+        let why = reasons(study).join("\n\n");
+        if !why.is_empty() {
+            all.push(part("Why ours differ", &why));
+        }
     }
     for quantity in &QUANTITIES {
         let title = format!("{} over the axes", quantity.label);
@@ -66,7 +71,8 @@ fn one_study(study: &Study, stem: &str, all: &mut Vec<Section>) -> Result<(), Re
         all.push(Section { table: Some(table), ..part("Accuracy", told) });
     }
     let told = "Medians over the runs. A step is what the map and the policy take, without the \
-                simulator.";
+                simulator. A correction is the optimisation and all that the map does anew for it; it \
+                is part of the step in which it happens.";
     all.push(Section { table: Some(costs(study)), ..part("Cost", told) });
     Ok(())
 }

@@ -88,7 +88,8 @@ pub(crate) fn times(study: &Study) -> TextTable {
 
 /// What a step and a run cost: medians over the runs.
 pub(crate) fn costs(study: &Study) -> TextTable {
-    let columns = ["step, µs", "step p99, µs", "map, kB", "run, s"];
+    let columns =
+        ["step, µs", "step p99, µs", "correction, µs", "corrections, s", "map, kB", "run, s"];
     TextTable::of_groups(study, &columns, |group| {
         let told = |name: &str, scale: f64, digits: usize| {
             group.cost(name).map_or_else(none, |cost| format!("{:.digits$}", cost * scale))
@@ -96,6 +97,8 @@ pub(crate) fn costs(study: &Study) -> TextTable {
         vec![
             told("step_micros_median", 1.0, 0),
             told("step_micros_p99", 1.0, 0),
+            told("correction_micros_median", 1.0, 0),
+            told("correction_secs", 1.0, 3),
             told("map_bytes_peak", 1e-3, 0),
             told("wall_secs", 1.0, 2),
         ]
