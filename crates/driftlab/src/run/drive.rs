@@ -185,7 +185,7 @@ impl Costs {
         MapTiming {
             correction_micros_median: of_corrections(0.5),
             correction_micros_p99: of_corrections(0.99),
-            correction_secs: corrections.iter().map(|one| one.secs).sum(),
+            correction_secs: corrections.iter().fold(0.0, |sum, one| sum + one.secs),
             corrections: corrections.clone(),
             step_micros_median: quantile(&self.own[map], 0.5),
             step_micros_p99: quantile(&self.own[map], 0.99),
