@@ -81,7 +81,7 @@ pub(super) fn collapse(
             state.measure(state.rings.of(into)[at]);
         }
         watch(Removal {
-            pixel: state.rings.pixels[vertex as usize],
+            pixel: state.rings.pixel(vertex),
             contribution_m,
             hole: &state.mend.polygon,
             pieces: state.mend.pieces(),
@@ -98,6 +98,7 @@ impl<'a> State<'a> {
         let heap = IndexedHeap::default();
         let mut state = Self { image, rings, quadrics, heap, mend: Mend::default() };
         for face in grid_faces(image.columns(), image.rows()) {
+            let face = face.map(|index| state.rings.number_at(index as usize));
             let [a, b, c] = face.map(|vertex| state.point(vertex));
             let doubled = (b - a).cross(&(c - a));
             let area = 0.5 * doubled.norm();
@@ -126,7 +127,7 @@ impl<'a> State<'a> {
     }
 
     fn point(&self, vertex: u32) -> Vector3<f64> {
-        self.image.point_in_camera(self.rings.pixels[vertex as usize]).coords
+        self.image.point_in_camera(self.rings.pixel(vertex)).coords
     }
 
     /// The wall between the camera and the border counts, so that its steps stay where they are.
@@ -163,7 +164,7 @@ impl<'a> State<'a> {
         let ring = self.rings.of(vertex);
         let n = ring.len();
         let on_border = self.rings.is_on_border(vertex);
-        if n > hole::LARGEST || (on_border && self.is_corner(vertex)) {
+        if n > hole::LARGEST || (on_border && self.rings.is_corner(vertex)) {
             return None;
         }
         let mut best: Option<(f64, usize)> = None;
@@ -184,12 +185,8 @@ impl<'a> State<'a> {
     /// Whether every triangle from the corner at `place` turns positively.
     fn sees_all(&self, ring: &[u32], place: usize) -> bool {
         let n = ring.len();
-        let at = |step: usize| self.rings.pixels[ring[(place + step) % n] as usize];
+        let at = |step: usize| self.rings.pixel(ring[(place + step) % n]);
         (1..n - 1).all(|step| orient(at(0), at(step), at(step + 1)) > 0)
-    }
-
-    fn is_corner(&self, vertex: u32) -> bool {
-        self.image.corners().contains(&self.rings.pixels[vertex as usize])
     }
 }
 

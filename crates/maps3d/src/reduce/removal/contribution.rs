@@ -19,23 +19,30 @@ type Point = Vector3<f64>;
 
 /// The contribution of a vertex with these neighbours, at least three, metres.
 #[inline]
-pub(super) fn contribution(kind: Contribution, point: &Point, neighbours: &[Point]) -> f64 {
+pub(super) fn contribution(kind: Contribution, point: [f32; 3], neighbours: &[[f32; 3]]) -> f64 {
     let share = 1.0 / neighbours.len() as f64;
-    let middle = neighbours.iter().sum::<Point>() * share;
-    let off = point - middle;
+    let from_point = |neighbour: &[f32; 3]| {
+        [0, 1, 2].map(|axis| f64::from(neighbour[axis]) - f64::from(point[axis]))
+    };
+    let [mut x, mut y, mut z] = [0.0; 3];
     if kind == Contribution::Centroid {
-        return off.norm();
+        for neighbour in neighbours {
+            let [dx, dy, dz] = from_point(neighbour);
+            (x, y, z) = (x + dx, y + dy, z + dz);
+        }
+        return (x * x + y * y + z * z).sqrt() * share;
     }
     let [mut xx, mut xy, mut xz, mut yy, mut yz, mut zz] = [0.0; 6];
     for neighbour in neighbours {
-        let d = neighbour - middle;
-        xx += d.x * d.x;
-        xy += d.x * d.y;
-        xz += d.x * d.z;
-        yy += d.y * d.y;
-        yz += d.y * d.z;
-        zz += d.z * d.z;
+        let [dx, dy, dz] = from_point(neighbour);
+        (x, y, z) = (x + dx, y + dy, z + dz);
+        (xx, xy, xz) = (xx + dx * dx, xy + dx * dy, xz + dx * dz);
+        (yy, yz, zz) = (yy + dy * dy, yz + dy * dz, zz + dz * dz);
     }
+    // About the middle of the neighbours, seen from which the point is at the opposite.
+    let off = Point::new(-x * share, -y * share, -z * share);
+    (xx, xy, xz) = (xx + x * off.x, xy + x * off.y, xz + x * off.z);
+    (yy, yz, zz) = (yy + y * off.y, yz + y * off.z, zz + z * off.z);
     if kind == Contribution::LeastSquaresVertical {
         let det = xx * yy - xy * xy;
         // Neighbours above one line fix no slope; the plane through their middle is level.
@@ -46,19 +53,19 @@ pub(super) fn contribution(kind: Contribution, point: &Point, neighbours: &[Poin
         let b = (yz * xx - xz * xy) / det;
         return (off.z - a * off.x - b * off.y).abs();
     }
-    let spread = Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz);
-    smallest_direction(&spread).map_or(0.0, |normal| normal.dot(&off).abs())
+    off_plane(&Matrix3::new(xx, xy, xz, xy, yy, yz, xz, yz, zz), &off)
 }
 
-/// The unit eigenvector of the smallest eigenvalue of a symmetric matrix without negative ones.
+/// How far `off` leads along the eigenvector of the smallest eigenvalue of a symmetric matrix without
+/// negative ones; 0 where every direction is as good.
 ///
 /// Newton's method from 0 runs up to the smallest root of the characteristic polynomial and never
-/// beyond it. The eigenvector is perpendicular to the rows of what is left. `None` where every
-/// direction is as good.
-fn smallest_direction(m: &Matrix3<f64>) -> Option<Point> {
+/// beyond it. The adjugate of what is left is `n n'` times a number, `n` being the eigenvector, so `n`
+/// itself need not be found.
+fn off_plane(m: &Matrix3<f64>, off: &Point) -> f64 {
     let scale = m.trace();
     if scale.is_nan() || scale <= 0.0 {
-        return None;
+        return 0.0;
     }
     let m = m / scale;
     // l^3 - l^2 + p l - q, as the trace is 1.
@@ -80,24 +87,24 @@ fn smallest_direction(m: &Matrix3<f64>) -> Option<Point> {
             break;
         }
     }
-    let rows = [0, 1, 2].map(|i| {
-        let mut row: Point = m.row(i).transpose();
-        row[i] -= l;
-        row
-    });
-    let candidates = [rows[0].cross(&rows[1]), rows[1].cross(&rows[2]), rows[2].cross(&rows[0])];
-    let longest =
-        candidates.into_iter().max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))?;
-    let length = longest.norm();
-    if length > 1e-12 {
-        return Some(longest / length);
+    let [xx, yy, zz] = [0, 1, 2].map(|i| m[(i, i)] - l);
+    let [xy, xz, yz] = [m[(0, 1)], m[(0, 2)], m[(1, 2)]];
+    let [axx, ayy, azz] = [yy * zz - yz * yz, xx * zz - xz * xz, xx * yy - xy * xy];
+    let size = axx + ayy + azz;
+    if size > 1e-12 {
+        let [axy, axz, ayz] = [xz * yz - xy * zz, xy * yz - xz * yy, xy * xz - xx * yz];
+        let along = (axx * off.x + 2.0 * (axy * off.y + axz * off.z)) * off.x
+            + (ayy * off.y + 2.0 * ayz * off.z) * off.y
+            + azz * off.z * off.z;
+        return (along.max(0.0) / size).sqrt();
     }
     // Two eigenvalues meet: neighbours on one line, or spread evenly. Any perpendicular will do.
-    let row = rows.into_iter().max_by(|a, b| a.norm_squared().total_cmp(&b.norm_squared()))?;
+    let rows = [Point::new(xx, xy, xz), Point::new(xy, yy, yz), Point::new(xz, yz, zz)];
+    let longest = |a: &Point, b: &Point| a.norm_squared().total_cmp(&b.norm_squared());
+    let Some(row) = rows.into_iter().max_by(longest) else { return 0.0 };
     let axis = if row.x.abs() <= row.y.abs().min(row.z.abs()) { Point::x() } else { Point::y() };
     let axis = if row.norm() > 1e-12 { row.cross(&axis) } else { axis };
-    let length = axis.norm();
-    (length > 0.0).then(|| axis / length)
+    axis.try_normalize(0.0).map_or(0.0, |normal| normal.dot(off).abs())
 }
 
 /// The relevance of the middle one of three points of a line (\[Mos15\] eq. 3.7, after Latecki and
@@ -121,14 +128,14 @@ mod tests {
     #[test]
     fn a_plane_along_the_viewing_axis_is_seen_by_the_normal_alone() {
         // Neighbours on x = 1, the point 0.1 beside it.
-        let ring = [at(1.0, 0.0, 2.0), at(1.0, 1.0, 2.5), at(1.0, 1.0, 3.5), at(1.0, 0.0, 4.0)];
-        let point = at(1.1, 0.5, 3.0);
-        let normal = contribution(Contribution::LeastSquares, &point, &ring);
-        assert!((normal - 0.1).abs() < 1e-9, "{normal}");
-        let vertical = contribution(Contribution::LeastSquaresVertical, &point, &ring);
-        assert!(vertical < 1e-9, "{vertical}");
-        let centroid = contribution(Contribution::Centroid, &point, &ring);
-        assert!((centroid - 0.1).abs() < 1e-9, "{centroid}");
+        let ring = [[1.0, 0.0, 2.0], [1.0, 1.0, 2.5], [1.0, 1.0, 3.5], [1.0, 0.0, 4.0]];
+        let point = [1.1, 0.5, 3.0];
+        let normal = contribution(Contribution::LeastSquares, point, &ring);
+        assert!((normal - 0.1).abs() < 1e-7, "{normal}");
+        let vertical = contribution(Contribution::LeastSquaresVertical, point, &ring);
+        assert!(vertical < 1e-7, "{vertical}");
+        let centroid = contribution(Contribution::Centroid, point, &ring);
+        assert!((centroid - 0.1).abs() < 1e-7, "{centroid}");
     }
 
     #[test]
@@ -142,17 +149,29 @@ mod tests {
 
     proptest! {
         #[test]
-        fn the_normal_is_that_of_the_eigenvectors(
-            points in prop::collection::vec((-2.0..2.0, -2.0..2.0, 0.5..8.0_f64), 3..9),
+        fn the_distance_is_that_along_an_eigenvector(
+            points in prop::collection::vec((-2.0..2.0_f32, -2.0..2.0_f32, 0.5..8.0_f32), 3..9),
+            point in (-2.0..2.0_f32, -2.0..2.0_f32, 0.5..8.0_f32),
         ) {
-            let points: Vec<Point> = points.into_iter().map(|(x, y, z)| at(x, y, z)).collect();
-            let middle = points.iter().sum::<Point>() / points.len() as f64;
+            let points: Vec<[f32; 3]> = points.into_iter().map(|(x, y, z)| [x, y, z]).collect();
+            let point = [point.0, point.1, point.2];
+            let exact: Vec<Point> =
+                points.iter().map(|p| Point::from(p.map(f64::from))).collect();
+            let middle = exact.iter().sum::<Point>() / points.len() as f64;
             let spread: Matrix3<f64> =
-                points.iter().map(|p| (p - middle) * (p - middle).transpose()).sum();
-            let normal = smallest_direction(&spread).expect("spread");
-            let least = spread.symmetric_eigenvalues().min();
-            let along = (normal.transpose() * spread * normal)[(0, 0)];
-            prop_assert!((along - least).abs() <= 1e-9 * spread.trace(), "{along} {least}");
+                exact.iter().map(|p| (p - middle) * (p - middle).transpose()).sum();
+            let eigen = spread.symmetric_eigen();
+            let least = eigen.eigenvalues.imin();
+            let off = Point::from(point.map(f64::from)) - middle;
+            let expected = eigen.eigenvectors.column(least).dot(&off).abs();
+            let found = contribution(Contribution::LeastSquares, point, &points);
+            // Where the two smallest nearly meet, the direction is not determined.
+            let mut sorted: Vec<f64> = eigen.eigenvalues.iter().copied().collect();
+            sorted.sort_by(f64::total_cmp);
+            prop_assume!(sorted[1] - sorted[0] > 1e-4 * spread.trace());
+            prop_assert!((found - expected).abs() <= 1e-6 * (1.0 + expected), "{found} {expected}");
+            let centroid = contribution(Contribution::Centroid, point, &points);
+            prop_assert!((centroid - off.norm()).abs() <= 1e-9 * (1.0 + centroid));
         }
     }
 }

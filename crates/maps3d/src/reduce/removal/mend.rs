@@ -45,7 +45,7 @@ impl Mend {
         self.ring.clear();
         self.ring.extend_from_slice(rings.of(vertex));
         self.polygon.clear();
-        self.polygon.extend(self.ring.iter().map(|&v| rings.pixels[v as usize]));
+        self.polygon.extend(self.ring.iter().map(|&v| rings.pixel(v)));
     }
 
     /// Puts the new edges into the rings of the vertices around the hole.

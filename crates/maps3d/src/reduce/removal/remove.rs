@@ -22,15 +22,13 @@ pub(in crate::reduce) struct Removal<'a> {
 }
 
 /// The state of a reduction by removal.
-struct State<'a> {
-    image: &'a FilledImage,
+struct State {
     kind: Contribution,
     rings: Rings,
-    points_in_camera: Vec<[f32; 3]>,
     inside: IndexedHeap,
     border: IndexedHeap,
     mend: Mend,
-    around: Vec<Vector3<f64>>,
+    around: Vec<[f32; 3]>,
 }
 
 /// Removes vertices until `stop`, and gives back what is left.
@@ -71,7 +69,7 @@ pub(in crate::reduce) fn remove(
         }
         state.take_out(vertex, method);
         watch(Removal {
-            pixel: state.rings.pixels[vertex as usize],
+            pixel: state.rings.pixel(vertex),
             contribution_m: f64::from(key),
             hole: &state.mend.polygon,
             pieces: state.mend.pieces(),
@@ -81,20 +79,11 @@ pub(in crate::reduce) fn remove(
     state.rings
 }
 
-impl<'a> State<'a> {
-    fn new(image: &'a FilledImage, kind: Contribution) -> Self {
-        #[expect(clippy::cast_possible_truncation, reason = "depths are measured to fewer digits")]
-        let points_in_camera = (0..image.pixels())
-            .map(|at| {
-                let point = image.point_in_camera(image.pixel(at));
-                [point.x as f32, point.y as f32, point.z as f32]
-            })
-            .collect();
+impl State {
+    fn new(image: &FilledImage, kind: Contribution) -> Self {
         let mut state = Self {
-            image,
             kind,
             rings: Rings::grid(image),
-            points_in_camera,
             inside: IndexedHeap::default(),
             border: IndexedHeap::default(),
             mend: Mend::default(),
@@ -115,31 +104,26 @@ impl<'a> State<'a> {
 
     #[inline]
     fn point(&self, vertex: u32) -> Vector3<f64> {
-        Vector3::from(self.points_in_camera[vertex as usize].map(f64::from))
-    }
-
-    fn is_corner(&self, vertex: u32) -> bool {
-        let [column, row] = self.rings.pixels[vertex as usize].map(usize::from);
-        (column == 0 || column + 1 == self.image.columns())
-            && (row == 0 || row + 1 == self.image.rows())
+        Vector3::from(self.rings.point_in_camera(vertex).map(f64::from))
     }
 
     /// What a vertex contributes; none for the corners of the image.
     #[expect(clippy::cast_possible_truncation, reason = "an order, not a measurement")]
     fn key_of(&mut self, vertex: u32) -> Option<f32> {
-        let point = self.point(vertex);
         if self.rings.is_on_border(vertex) {
-            if self.is_corner(vertex) {
+            if self.rings.is_corner(vertex) {
                 return None;
             }
             let ring = self.rings.of(vertex);
             let (after, before) = (self.point(ring[0]), self.point(ring[ring.len() - 1]));
-            return Some(relevance(&before, &point, &after) as f32);
+            return Some(relevance(&before, &self.point(vertex), &after) as f32);
         }
-        let (points, ring) = (&self.points_in_camera, self.rings.of(vertex));
         self.around.clear();
-        self.around.extend(ring.iter().map(|&v| Vector3::from(points[v as usize].map(f64::from))));
-        Some(contribution(self.kind, &point, &self.around) as f32)
+        for &neighbour in self.rings.of(vertex) {
+            self.around.push(self.rings.point_in_camera(neighbour));
+        }
+        let point = self.rings.point_in_camera(vertex);
+        Some(contribution(self.kind, point, &self.around) as f32)
     }
 
     /// Removes a vertex, closes its hole and measures its neighbours.

@@ -7,79 +7,128 @@ use crate::triangulate::ImageMesh;
 ///
 /// The ring of a vertex inside is closed; that of one on the border of the image runs from its next
 /// neighbour along the border to the one before. Faces are not stored: two neighbours in a row make
-/// one. Rings lie in one pool, in blocks of 8, 16, 32, ... places that are used again: 44 bytes per
-/// vertex at the start, and hardly more later.
+/// one. What a removal looks at is waited for, not computed: so all that is known of a vertex fills
+/// one line of the cache, and vertices are numbered tile by tile, a page of memory each. Rings longer
+/// than [`INLINE`] lie in a pool, in blocks of 16, 32, ... places that are used again.
 #[derive(Clone, Debug)]
 pub(in crate::reduce) struct Rings {
-    starts: Vec<u32>,
-    lengths: Vec<u32>,
+    vertices: Vec<Vertex>,
+    columns: usize,
+    rows: usize,
     pool: Vec<u32>,
     /// Blocks that are free, by the power of two of their size.
     free: Vec<Vec<u32>>,
-    pub pixels: Vec<Pixel>,
-    border: Vec<bool>,
     alive: usize,
 }
 
-/// Places of the smallest block.
-const SMALLEST: u32 = 8;
+/// The longest ring that lies with its vertex.
+const INLINE: usize = 10;
 
-fn class_of(length: u32) -> u32 {
-    length.max(SMALLEST).next_power_of_two().trailing_zeros()
+/// Columns and rows of a tile of vertices with numbers in a row.
+const TILE: usize = 8;
+
+#[derive(Clone, Copy, Debug)]
+#[repr(align(64))]
+struct Vertex {
+    /// The ring; a longer one than fits starts in the pool where the first number says.
+    ring: [u32; INLINE],
+    point_in_camera: [f32; 3],
+    pixel: Pixel,
+    length: u32,
+    border: bool,
+}
+
+fn class_of(length: usize) -> usize {
+    length.next_power_of_two().trailing_zeros() as usize
+}
+
+/// The number of a pixel's vertex: tiles row by row, and each row by row.
+fn number_of(columns: usize, rows: usize, column: usize, row: usize) -> usize {
+    let (left, top) = (column / TILE * TILE, row / TILE * TILE);
+    let (width, height) = (TILE.min(columns - left), TILE.min(rows - top));
+    top * columns + left * height + (row - top) * width + column - left
 }
 
 impl Rings {
     /// The grid of all pixels (\[Mos15\] 3.4). O(pixels).
     pub fn grid(image: &FilledImage) -> Self {
-        let (columns, rows) = (image.columns() as i64, image.rows() as i64);
-        let pixels = image.pixels();
-        let mut rings = Self {
-            starts: (0..pixels as u32).map(|vertex| vertex * SMALLEST).collect(),
-            lengths: vec![0; pixels],
-            pool: vec![0; pixels * SMALLEST as usize],
-            free: vec![Vec::new(); 32],
-            pixels: (0..pixels).map(|index| image.pixel(index)).collect(),
-            border: vec![false; pixels],
-            alive: pixels,
+        let (columns, rows) = (image.columns(), image.rows());
+        let blank = Vertex {
+            ring: [0; INLINE],
+            point_in_camera: [0.0; 3],
+            pixel: [0; 2],
+            length: 0,
+            border: false,
         };
-        const AROUND: [[i64; 2]; 6] = [[1, 0], [1, 1], [0, 1], [-1, 0], [-1, -1], [0, -1]];
-        for vertex in 0..pixels {
-            let [column, row] = rings.pixels[vertex].map(i64::from);
-            let there = AROUND.map(|[dc, dr]| {
-                let (c, r) = (column + dc, row + dr);
-                ((0..columns).contains(&c) && (0..rows).contains(&r))
-                    .then(|| (r * columns + c) as u32)
-            });
-            rings.border[vertex] = there.contains(&None);
-            // On the border the ring starts after the gap.
-            let first = (0..6).find(|&i| there[(i + 5) % 6].is_none() && there[i].is_some());
-            let ring = &mut rings.pool[vertex * SMALLEST as usize..];
-            let neighbours = (0..6).filter_map(|i| there[(first.unwrap_or(0) + i) % 6]);
-            for (place, neighbour) in ring.iter_mut().zip(neighbours) {
-                *place = neighbour;
-                rings.lengths[vertex] += 1;
+        let mut vertices = vec![blank; image.pixels()];
+        const AROUND: [[isize; 2]; 6] = [[1, 0], [1, 1], [0, 1], [-1, 0], [-1, -1], [0, -1]];
+        for row in 0..rows {
+            for column in 0..columns {
+                let there = AROUND.map(|[dc, dr]| {
+                    let c = column.checked_add_signed(dc).filter(|&c| c < columns)?;
+                    let r = row.checked_add_signed(dr).filter(|&r| r < rows)?;
+                    Some(number_of(columns, rows, c, r) as u32)
+                });
+                let vertex = &mut vertices[number_of(columns, rows, column, row)];
+                vertex.pixel = [column as u16, row as u16];
+                let point = image.point_in_camera(vertex.pixel);
+                #[expect(clippy::cast_possible_truncation, reason = "fewer digits are measured")]
+                let short = [point.x as f32, point.y as f32, point.z as f32];
+                vertex.point_in_camera = short;
+                vertex.border = there.contains(&None);
+                // On the border the ring starts after the gap.
+                let first = (0..6).find(|&i| there[(i + 5) % 6].is_none() && there[i].is_some());
+                let neighbours = (0..6).filter_map(|i| there[(first.unwrap_or(0) + i) % 6]);
+                for (place, neighbour) in vertex.ring.iter_mut().zip(neighbours) {
+                    *place = neighbour;
+                    vertex.length += 1;
+                }
             }
         }
-        rings
+        let alive = vertices.len();
+        Self { vertices, columns, rows, pool: Vec::new(), free: vec![Vec::new(); 32], alive }
     }
 
     /// The neighbours of a vertex.
     #[inline]
     pub fn of(&self, vertex: u32) -> &[u32] {
-        let start = self.starts[vertex as usize] as usize;
-        &self.pool[start..start + self.lengths[vertex as usize] as usize]
+        let vertex = &self.vertices[vertex as usize];
+        let length = vertex.length as usize;
+        if length <= INLINE {
+            &vertex.ring[..length]
+        } else {
+            &self.pool[vertex.ring[0] as usize..][..length]
+        }
+    }
+
+    /// The number of the vertex at a place of the image's list of pixels.
+    pub fn number_at(&self, index: usize) -> u32 {
+        let (column, row) = (index % self.columns, index / self.columns);
+        number_of(self.columns, self.rows, column, row) as u32
+    }
+
+    /// The pixel of a vertex.
+    #[inline]
+    pub fn pixel(&self, vertex: u32) -> Pixel {
+        self.vertices[vertex as usize].pixel
+    }
+
+    /// The point of a vertex, in the frame `camera`, metres.
+    #[inline]
+    pub fn point_in_camera(&self, vertex: u32) -> [f32; 3] {
+        self.vertices[vertex as usize].point_in_camera
     }
 
     /// Whether the vertex lies on the border of the image.
     #[inline]
     pub fn is_on_border(&self, vertex: u32) -> bool {
-        self.border[vertex as usize]
+        self.vertices[vertex as usize].border
     }
 
-    /// Whether the vertex is still there.
-    #[inline]
-    pub fn is_alive(&self, vertex: u32) -> bool {
-        self.lengths[vertex as usize] > 0
+    /// Whether the vertex is one of the four corners of the image.
+    pub fn is_corner(&self, vertex: u32) -> bool {
+        let [column, row] = self.pixel(vertex).map(usize::from);
+        (column == 0 || column + 1 == self.columns) && (row == 0 || row + 1 == self.rows)
     }
 
     /// Number of vertices that are still there.
@@ -89,56 +138,84 @@ impl Rings {
 
     /// Forgets a vertex; its neighbours must forget it through [`replace`](Self::replace).
     pub fn remove(&mut self, vertex: u32) {
-        let class = class_of(self.lengths[vertex as usize]);
-        self.free[class as usize].push(self.starts[vertex as usize]);
-        self.lengths[vertex as usize] = 0;
+        let vertex = &mut self.vertices[vertex as usize];
+        let length = vertex.length as usize;
+        if length > INLINE {
+            self.free[class_of(length)].push(vertex.ring[0]);
+        }
+        vertex.length = 0;
         self.alive -= 1;
     }
 
     /// Puts `by` in the place of `gone` in the ring of `vertex`.
     pub fn replace(&mut self, vertex: u32, gone: u32, by: &[u32]) {
-        let start = self.starts[vertex as usize] as usize;
-        let length = self.lengths[vertex as usize] as usize;
         let Some(at) = self.of(vertex).iter().position(|&other| other == gone) else { return };
+        let held = &mut self.vertices[vertex as usize];
+        let length = held.length as usize;
         let now = length + by.len() - 1;
-        let (class, needed) = (class_of(length as u32), class_of(now as u32));
-        self.lengths[vertex as usize] = now as u32;
-        if needed == class {
-            self.pool.copy_within(start + at + 1..start + length, start + at + by.len());
-            self.pool[start + at..start + at + by.len()].copy_from_slice(by);
+        held.length = now as u32;
+        let (from, to) = (at + 1, at + by.len());
+        if length <= INLINE && now <= INLINE {
+            held.ring.copy_within(from..length, to);
+            held.ring[at..to].copy_from_slice(by);
             return;
         }
-        let block = self.free[needed as usize].pop().unwrap_or_else(|| {
-            let block = self.pool.len();
-            self.pool.resize(block + (1 << needed), 0);
-            block as u32
-        });
-        let to = block as usize;
-        self.pool.copy_within(start..start + at, to);
-        self.pool.copy_within(start + at + 1..start + length, to + at + by.len());
-        self.pool[to + at..to + at + by.len()].copy_from_slice(by);
-        self.free[class as usize].push(start as u32);
-        self.starts[vertex as usize] = block;
+        let start = held.ring[0] as usize;
+        if length > INLINE && now > INLINE && class_of(length) == class_of(now) {
+            self.pool.copy_within(start + from..start + length, start + to);
+            self.pool[start + at..start + to].copy_from_slice(by);
+            return;
+        }
+        // The ring moves between its vertex and blocks of other sizes.
+        let before = if length > INLINE {
+            self.free[class_of(length)].push(start as u32);
+            self.pool[start..start + length].to_vec()
+        } else {
+            held.ring[..length].to_vec()
+        };
+        let room = if now > INLINE {
+            let class = class_of(now);
+            let block = self.free[class].pop().unwrap_or_else(|| {
+                let block = self.pool.len();
+                self.pool.resize(block + (1 << class), 0);
+                block as u32
+            });
+            held.ring[0] = block;
+            &mut self.pool[block as usize..][..now]
+        } else {
+            &mut held.ring[..now]
+        };
+        room[..at].copy_from_slice(&before[..at]);
+        room[at..to].copy_from_slice(by);
+        room[to..].copy_from_slice(&before[from..]);
     }
 
-    /// The mesh as it is now, with the image's own depths. O(vertices of the grid).
+    /// The mesh as it is now, with the image's own depths; vertices row by row. O(vertices of the
+    /// grid).
     pub fn mesh(&self, image: &FilledImage) -> ImageMesh {
         let mut mesh = ImageMesh::default();
-        let mut numbers = vec![0; self.lengths.len()];
-        for vertex in (0..self.lengths.len() as u32).filter(|&v| self.is_alive(v)) {
+        let mut numbers = vec![0_u32; self.vertices.len()];
+        let (columns, rows) = (self.columns, self.rows);
+        let alive = || {
+            let pixels = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
+            let vertices = pixels.map(|(c, r)| number_of(columns, rows, c, r) as u32);
+            vertices.filter(|&vertex| self.vertices[vertex as usize].length > 0)
+        };
+        for vertex in alive() {
             numbers[vertex as usize] = mesh.pixels.len() as u32;
-            let pixel = self.pixels[vertex as usize];
+            let pixel = self.pixel(vertex);
             mesh.pixels.push(pixel);
             mesh.depths_m.push(f64::from(image.depth_m(pixel)));
         }
-        for vertex in (0..self.lengths.len() as u32).filter(|&v| self.is_alive(v)) {
+        for vertex in alive() {
             let ring = self.of(vertex);
             let closed = usize::from(!self.is_on_border(vertex));
+            let least = numbers[vertex as usize];
             for i in 0..ring.len() - 1 + closed {
-                let (a, b) = (ring[i], ring[(i + 1) % ring.len()]);
+                let [a, b] = [ring[i], ring[(i + 1) % ring.len()]].map(|v| numbers[v as usize]);
                 // Each face once, by its smallest vertex.
-                if vertex < a && vertex < b {
-                    mesh.triangles.push([vertex, a, b].map(|v| numbers[v as usize]));
+                if least < a && least < b {
+                    mesh.triangles.push([least, a, b]);
                 }
             }
         }
@@ -178,5 +255,46 @@ mod tests {
             };
             assert_eq!(sorted(&mesh.triangles), sorted(&grid(&image).triangles));
         }
+    }
+
+    #[test]
+    fn tiles_number_every_pixel_once() {
+        for (columns, rows) in [(2, 2), (8, 8), (17, 9), (5, 30)] {
+            let mut seen = vec![false; columns * rows];
+            for row in 0..rows {
+                for column in 0..columns {
+                    let number = number_of(columns, rows, column, row);
+                    assert!(!std::mem::replace(&mut seen[number], true));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_ring_grows_and_shrinks_whole() {
+        let image = DepthImage::new(9, Camera::new(9.0, 9.0, 1.0, 1.0), vec![1.0; 81]);
+        let image = prepare(&image, &PrepareOptions::default()).expect("valid");
+        let mut rings = Rings::grid(&image);
+        let (vertex, other) = (40, 41);
+        let mut expected = rings.of(vertex).to_vec();
+        let beside = rings.of(other).to_vec();
+        let mut next = 1000;
+        // Up past two sizes of blocks, and down again.
+        for _ in 0..40 {
+            let at = next as usize % expected.len();
+            let by = [next, next + 1];
+            rings.replace(vertex, expected[at], &by);
+            expected.splice(at..=at, by);
+            next += 2;
+            assert_eq!(rings.of(vertex), expected);
+        }
+        while expected.len() > 3 {
+            let at = expected.len() / 2;
+            rings.replace(vertex, expected[at], &[]);
+            expected.remove(at);
+            assert_eq!(rings.of(vertex), expected);
+        }
+        assert_eq!(rings.of(other), beside);
+        assert_eq!(size_of::<Vertex>(), 64);
     }
 }
