@@ -1,5 +1,7 @@
 //! Every closed mesh of the test data against a shifted and a turned copy of itself.
 
+mod data;
+
 use std::fs;
 use std::io::Write;
 use std::path::{Path, PathBuf};
@@ -12,20 +14,6 @@ use solid::boolean::Options;
 use solid::mesh::weld;
 use solid::validity::check_topology;
 use solid::{Operation, Point3, Polyhedron, boolean};
-
-/// The folder `meshes` of `$DRIFTLAB_DATA`, else of the test data beside the project.
-fn folder() -> Option<PathBuf> {
-    let given = std::env::var_os("DRIFTLAB_DATA").map(PathBuf::from);
-    let beside = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-    let folder = given.unwrap_or(beside).join("meshes");
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    // Said past the test harness, which would swallow it.
-    let text = "SKIPPED: no real meshes in this folder; DRIFTLAB_DATA names the test data's folder";
-    writeln!(std::io::stderr(), "{text}: {}", folder.display()).expect("stderr takes text");
-    None
-}
 
 /// All files that hold a closed 2-manifold with its inside inside.
 fn meshes(folder: &Path, parts: &[&str]) -> Vec<(String, Polyhedron)> {
@@ -68,7 +56,7 @@ fn volume_of(mesh: &Manifold<f64>, about: &Point3) -> f64 {
 /// `bar` is how far the volumes may be off, as a share of the mesh's: from those of the second engine,
 /// and by what union and intersection together differ from both operands.
 fn combine(parts: &[&str], at_least: usize, bar: [f64; 2]) {
-    let Some(folder) = folder() else { return };
+    let Some(folder) = data::folder("meshes") else { return };
     let meshes = meshes(&folder, parts);
     assert!(meshes.len() >= at_least, "{} closed meshes", meshes.len());
     let wrong: Vec<String> =

@@ -1,8 +1,9 @@
 //! Depth images and organised clouds that others wrote, where a folder of test data is at hand: read,
 //! made into polyhedra, and held against an independent computation.
 
+mod data;
+
 use std::fs;
-use std::io::Write;
 use std::path::{Path, PathBuf};
 
 use formats::depth_file::{DepthFile, DepthFileOptions, read};
@@ -11,23 +12,6 @@ use maps3d::reduce::{InverseDepth, Method, ReduceOptions, Stop};
 use maps3d::triangulate::check_planar;
 use maps3d::{ViewOptions, polyhedron};
 use sensing::{Camera, DepthImage};
-
-/// A folder of `$DRIFTLAB_DATA`, else of the test data beside the project.
-fn data(name: &str) -> Option<PathBuf> {
-    let folder = match std::env::var_os("DRIFTLAB_DATA") {
-        Some(folder) => PathBuf::from(folder),
-        None => PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"),
-    };
-    let folder = folder.join(name);
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    // Said past the test harness, which would swallow it.
-    let text =
-        "SKIPPED: no real depth images in this folder; DRIFTLAB_DATA names the test data's folder";
-    writeln!(std::io::stderr(), "{text}: {}", folder.display()).expect("stderr takes text");
-    None
-}
 
 /// The image of a file, and for a cloud its points.
 fn image(path: &Path, camera: Camera, units_per_metre: f64) -> (DepthImage, Option<Vec<[f32; 3]>>) {
@@ -114,7 +98,7 @@ fn hold(path: &Path, camera: Camera, units_per_metre: f64) {
 
 #[test]
 fn depth_images_of_seven_scenes() {
-    let Some(folder) = data("rgbd") else { return };
+    let Some(folder) = data::folder("rgbd") else { return };
     let mut files: Vec<PathBuf> = fs::read_dir(folder.join("tsdf50"))
         .expect("listed")
         .map(|entry| entry.expect("listed").path())
@@ -129,7 +113,7 @@ fn depth_images_of_seven_scenes() {
 
 #[test]
 fn depth_images_as_pgm_and_png() {
-    let Some(folder) = data("rgbd") else { return };
+    let Some(folder) = data::folder("rgbd") else { return };
     for index in 1..=5 {
         let file = folder.join(format!("slambook_ch5/depth_{index}.pgm"));
         hold(&file, Camera::new(518.0, 519.0, 325.5, 253.5), 1000.0);
@@ -142,7 +126,7 @@ fn depth_images_as_pgm_and_png() {
 
 #[test]
 fn organised_clouds() {
-    let Some(folder) = data("clouds") else { return };
+    let Some(folder) = data::folder("clouds") else { return };
     for name in [
         "office1.pcd",
         "table_scene_mug_stereo_textured.pcd",
@@ -156,7 +140,7 @@ fn organised_clouds() {
 
 #[test]
 fn clouds_without_an_image_are_told_apart() {
-    let Some(folder) = data("clouds") else { return };
+    let Some(folder) = data::folder("clouds") else { return };
     for (name, count) in [("bun0.pcd", 397), ("fragment.pcd", 113_662)] {
         let bytes = fs::read(folder.join(name)).expect("readable");
         let options = DepthFileOptions { units_per_metre: 1.0, size: None };

@@ -1,26 +1,11 @@
 //! Pose graphs that others wrote, where a folder of test data is at hand.
 
+mod data;
+
 use std::fs;
-use std::io::Write;
-use std::path::PathBuf;
 
 use formats::pose_graph::{AnyGraph, GraphFormat, WarningKind, read, write};
 use formats::{Kind, sniff};
-
-/// The folder `posegraphs` of `$DRIFTLAB_DATA`, else of the test data beside the project.
-fn graphs() -> Option<PathBuf> {
-    let folder = match std::env::var_os("DRIFTLAB_DATA") {
-        Some(folder) => PathBuf::from(folder),
-        None => PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"),
-    };
-    let graphs = folder.join("posegraphs");
-    if graphs.is_dir() {
-        return Some(graphs);
-    }
-    let text = "SKIPPED: no real pose graphs here; DRIFTLAB_DATA names the test data's folder";
-    writeln!(std::io::stderr(), "{text}: {}", graphs.display()).expect("stderr takes text");
-    None
-}
 
 /// File, dimensions, vertices, vertex lines, edges, unknown tags: as counted by `grep`.
 const KNOWN: [(&str, usize, usize, usize, usize, usize); 18] = [
@@ -46,7 +31,7 @@ const KNOWN: [(&str, usize, usize, usize, usize, usize); 18] = [
 
 #[test]
 fn counts_are_those_of_the_files_and_g2o_reads_back_equal() {
-    let Some(folder) = graphs() else { return };
+    let Some(folder) = data::folder("posegraphs") else { return };
     for (name, dimensions, vertices, vertex_lines, edges, unknown) in KNOWN {
         let bytes = fs::read(folder.join(name)).expect(name);
         let file = read(&bytes).expect(name);
@@ -76,7 +61,7 @@ fn counts_are_those_of_the_files_and_g2o_reads_back_equal() {
 
 #[test]
 fn the_vehicle_of_the_garage_and_its_quaternions() {
-    let Some(folder) = graphs() else { return };
+    let Some(folder) = data::folder("posegraphs") else { return };
     let name = "parking-garage.g2o";
     let file = read(&fs::read(folder.join(name)).expect(name)).expect(name);
     let norms = |kind: &WarningKind| matches!(kind, WarningKind::NonUnitQuaternion { .. });

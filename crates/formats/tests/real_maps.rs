@@ -1,30 +1,10 @@
 //! Map files that others wrote, where a folder of test data is at hand.
 
+mod data;
+
 use std::fs;
-use std::io::Write;
-use std::path::PathBuf;
 
 use formats::{GrayImage, Kind, map_yaml, moving_ai, pgm, png, sniff, text};
-
-/// The folder `maps` of `$DRIFTLAB_DATA`, else of the test data beside the project.
-fn maps() -> Option<PathBuf> {
-    let folder = match std::env::var_os("DRIFTLAB_DATA") {
-        Some(folder) => PathBuf::from(folder),
-        None => PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"),
-    };
-    let maps = folder.join("maps");
-    if maps.is_dir() {
-        return Some(maps);
-    }
-    skipped(&maps.display().to_string());
-    None
-}
-
-/// Said past the test harness, which would swallow it.
-fn skipped(folder: &str) {
-    let text = "SKIPPED: no real maps in this folder; DRIFTLAB_DATA names the test data's folder";
-    writeln!(std::io::stderr(), "{text}: {folder}").expect("stderr takes text");
-}
 
 fn image(bytes: &[u8]) -> GrayImage {
     match sniff(bytes, None) {
@@ -39,7 +19,7 @@ type Known<'a> = (&'a str, usize, usize, &'a [(u16, usize)]);
 
 #[test]
 fn images_have_the_known_levels() {
-    let Some(maps) = maps() else { return };
+    let Some(maps) = data::folder("maps") else { return };
     let known: [Known; 12] = [
         ("stage/cave.png", 500, 500, &[(255, 244_730), (0, 5270)]),
         ("stage/hospital_section.png", 1086, 443, &[(255, 463_940), (0, 17158)]),
@@ -66,7 +46,7 @@ fn images_have_the_known_levels() {
 
 #[test]
 fn yaml_files_name_their_images() {
-    let Some(maps) = maps() else { return };
+    let Some(maps) = data::folder("maps") else { return };
     let known = [
         ("aws_house/map.yaml", "map.pgm", [-12.5, -12.5, 0.0], 0.196),
         ("nav2/depot.yaml", "depot.pgm", [0.0; 3], 0.25),
@@ -84,7 +64,7 @@ fn yaml_files_name_their_images() {
 
 #[test]
 fn moving_ai_arena() {
-    let Some(maps) = maps() else { return };
+    let Some(maps) = data::folder("maps") else { return };
     let bytes = fs::read(maps.join("movingai/arena.map")).expect("arena");
     assert_eq!(sniff(&bytes, None), Kind::MovingAi);
     let map = moving_ai::read(text(&bytes).expect("UTF-8")).expect("arena");

@@ -1,26 +1,12 @@
 //! Meshes that others made: read, counted, and as valid as they are known to be.
 
+mod data;
+
 use std::fs;
-use std::io::Write;
-use std::path::PathBuf;
 
 use formats::mesh::{MeshFile, read};
 use solid::mesh::weld;
 use solid::{Polyhedron, check};
-
-/// Folder of the meshes, or `None` with a loud word.
-fn folder() -> Option<PathBuf> {
-    let given = std::env::var_os("DRIFTLAB_DATA").map(PathBuf::from);
-    let beside = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-    let folder = given.unwrap_or(beside).join("meshes");
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    // Said past the test harness, which would swallow it.
-    let text = "SKIPPED: no real meshes in this folder; DRIFTLAB_DATA names the test data's folder";
-    writeln!(std::io::stderr(), "{text}: {}", folder.display()).expect("stderr takes text");
-    None
-}
 
 fn open(folder: &std::path::Path, name: &str) -> (MeshFile, Polyhedron) {
     let path = folder.join(name);
@@ -36,7 +22,7 @@ type Known = (&'static str, usize, usize, bool, bool, bool, Option<f64>);
 
 #[test]
 fn every_mesh_is_read_and_the_sound_ones_are_found_sound() {
-    let Some(folder) = folder() else { return };
+    let Some(folder) = data::folder("meshes") else { return };
     // Name, vertices, polygons, closed, 2-manifold, self-intersecting, volume.
     let known: [Known; 18] = [
         ("clean/cube.off", 8, 6, true, true, false, Some(4.0)),
@@ -79,7 +65,7 @@ fn every_mesh_is_read_and_the_sound_ones_are_found_sound() {
 
 #[test]
 fn complexes_are_read_with_their_facets() {
-    let Some(folder) = folder() else { return };
+    let Some(folder) = data::folder("meshes") else { return };
     for (name, points, facets) in [
         ("plc/example.poly", 28, 23),
         ("plc/slit-1.smesh", 14, 13),

@@ -1,27 +1,13 @@
 //! Public graphs, where a folder of test data is at hand: certified optima of SE-Sync's cost and best
 //! known `χ²` from the default start.
 
+#[path = "../data_folder/mod.rs"]
+mod data_folder;
+
 use std::fs;
-use std::io::Write;
-use std::path::PathBuf;
 
 use formats::pose_graph::{AnyGraph, read};
 use posegraph::{FactorGraph, Options, Rigid, SynchronizeOptions, Verdict, certify, default_start};
-
-/// The folder `posegraphs` of `$DRIFTLAB_DATA`, else of the test data beside the project.
-fn graphs() -> Option<PathBuf> {
-    let folder = match std::env::var_os("DRIFTLAB_DATA") {
-        Some(folder) => PathBuf::from(folder),
-        None => PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"),
-    };
-    let graphs = folder.join("posegraphs");
-    if graphs.is_dir() {
-        return Some(graphs);
-    }
-    let text = "SKIPPED: no real pose graphs here; DRIFTLAB_DATA names the test data's folder";
-    writeln!(std::io::stderr(), "{text}: {}", graphs.display()).expect("stderr takes text");
-    None
-}
 
 /// File, SE-Sync's optimum as published or found by its own code, and the best known `χ²`.
 const KNOWN: [(&str, f64, f64); 9] = [
@@ -54,7 +40,7 @@ fn hold<P: Rigid<D>, const D: usize>(name: &str, graph: &FactorGraph<P, D>, know
 
 #[test]
 fn public_graphs_are_certified_and_solved_from_the_default_start() {
-    let Some(folder) = graphs() else { return };
+    let Some(folder) = data_folder::graphs() else { return };
     for (name, sesync, chi2) in KNOWN {
         match read(&fs::read(folder.join(name)).unwrap()).unwrap().graph {
             AnyGraph::Plane(graph) => hold(name, &graph, (sesync, chi2)),

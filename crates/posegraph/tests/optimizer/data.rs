@@ -1,28 +1,14 @@
 //! Public graphs, where a folder of test data is at hand: best known costs from odometry and from
 //! the start of the file.
 
+#[path = "../data_folder/mod.rs"]
+mod data_folder;
+
 use std::fs;
-use std::io::Write;
-use std::path::PathBuf;
 
 use formats::pose_graph::{AnyGraph, read};
 use posegraph::initial::{given, odometry};
 use posegraph::{FactorGraph, Manifold, Options, optimize};
-
-/// The folder `posegraphs` of `$DRIFTLAB_DATA`, else of the test data beside the project.
-fn graphs() -> Option<PathBuf> {
-    let folder = match std::env::var_os("DRIFTLAB_DATA") {
-        Some(folder) => PathBuf::from(folder),
-        None => PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data"),
-    };
-    let graphs = folder.join("posegraphs");
-    if graphs.is_dir() {
-        return Some(graphs);
-    }
-    let text = "SKIPPED: no real pose graphs here; DRIFTLAB_DATA names the test data's folder";
-    writeln!(std::io::stderr(), "{text}: {}", graphs.display()).expect("stderr takes text");
-    None
-}
 
 /// File and best known χ², found by Ceres at a tolerance of 1e-13 from several starts.
 const KNOWN: [(&str, f64); 8] = [
@@ -52,7 +38,7 @@ fn hold<P: Manifold<D>, const D: usize>(name: &str, graph: &FactorGraph<P, D>, b
 
 #[test]
 fn best_known_costs_are_reached_from_odometry_and_from_the_file() {
-    let Some(folder) = graphs() else { return };
+    let Some(folder) = data_folder::graphs() else { return };
     for (name, best) in KNOWN {
         match read(&fs::read(folder.join(name)).unwrap()).unwrap().graph {
             AnyGraph::Plane(graph) => hold(name, &graph, best),
