@@ -11,6 +11,7 @@ mod palette;
 mod recorder;
 mod recording;
 mod solid;
+mod stage;
 
 pub use depth::{DEPTH_EVENTS, DepthRecording, DepthRecordingOptions};
 pub use error::InstrumentError;

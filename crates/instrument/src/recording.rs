@@ -3,9 +3,10 @@
 use std::path::PathBuf;
 
 use rerun::log::LogMsg;
-use rerun::{AnnotationContext, RecordingStream, RecordingStreamBuilder, TextDocument};
+use rerun::{AnnotationContext, RecordingStream};
 
 use crate::columns::{fixed, rgb};
+use crate::stage::Stage;
 use crate::{InstrumentError, Level, Recorder, RecordingOptions, layout, palette};
 
 /// Where the recording keeps what it says about itself.
@@ -20,7 +21,8 @@ pub(crate) const METRICS: &str = "result/metrics";
 /// The file grows under its final name and opens in the viewer with everything that was sent so
 /// far, even when the process was killed. [`finish`](Self::finish) adds the final metrics.
 pub struct Recording {
-    stream: RecordingStream,
+    /// None where nothing is recorded.
+    stage: Option<Stage>,
     options: RecordingOptions,
 }
 
@@ -31,34 +33,13 @@ impl Recording {
     /// [`InstrumentError::Write`] where the file cannot be created.
     pub fn create(options: RecordingOptions) -> Result<Self, InstrumentError> {
         if options.level == Level::Off {
-            return Ok(Self { stream: RecordingStream::disabled(), options });
+            return Ok(Self { stage: None, options });
         }
-        let refuse = |reason: String| InstrumentError::Write { path: options.path.clone(), reason };
-        // A viewer that has seen another run must not mix the two: one id per file.
-        let stream = RecordingStreamBuilder::new("driftlab")
-            .recording_name(options.name.clone())
-            .save(&options.path)
-            .map_err(|e| refuse(e.to_string()))?;
-        stream.set_log_time_enabled(false);
-        stream.set_log_tick_enabled(false);
-        layout::send(&stream, &options).map_err(refuse)?;
-        let recording = Self { stream, options };
-        recording.describe()?;
-        recording.flush()?;
-        Ok(recording)
-    }
-
-    fn describe(&self) -> Result<(), InstrumentError> {
-        let (stream, options) = (&self.stream, &self.options);
-        let about = TextDocument::from_markdown(layout::about(options));
-        fixed(stream, &ABOUT.into(), &about)?;
-        let config = format!("```toml\n{}\n```\n", options.config.trim_end());
-        fixed(stream, &CONFIG.into(), &TextDocument::from_markdown(config))?;
-        let classes = palette::CELL_CLASSES.map(|(id, label, colour)| {
-            let colour = rerun::datatypes::Rgba32(colour);
-            rerun::AnnotationInfo::from((u16::from(id), label, colour))
-        });
-        fixed(stream, &"/".into(), &AnnotationContext::new(classes))
+        let stage = Stage::create(&options.path, &options.name)?;
+        layout::send(&stage.stream, &options).map_err(|reason| stage.refused(reason))?;
+        describe(&stage, &options)?;
+        stage.flush()?;
+        Ok(Self { stage: Some(stage), options })
     }
 
     /// The file.
@@ -72,7 +53,9 @@ impl Recording {
         let map = known
             .map_or_else(|| crate::MapOptions::of_kind(name), |at| self.options.maps[at].clone());
         let colour = known.map_or(rgb(80, 80, 80), |at| palette::MAPS[at % palette::MAPS.len()]);
-        Recorder::new(self.stream.clone(), &map, colour, self.options.level, self.options.every)
+        let stream =
+            self.stage.as_ref().map_or_else(RecordingStream::disabled, |s| s.stream.clone());
+        Recorder::new(stream, &map, colour, self.options.level, self.options.every)
     }
 
     /// Writes everything that was sent so far to the file; the wait is that of the disk.
@@ -80,13 +63,7 @@ impl Recording {
     /// # Errors
     /// [`InstrumentError::Write`] where the file could not be written.
     pub fn flush(&self) -> Result<(), InstrumentError> {
-        if self.options.level == Level::Off {
-            return Ok(());
-        }
-        self.stream.flush_blocking().map_err(|e| InstrumentError::Write {
-            path: self.options.path.clone(),
-            reason: e.to_string(),
-        })
+        self.stage.as_ref().map_or(Ok(()), Stage::flush)
     }
 
     /// Ends the recording with its final metrics; all recorders must have sent their rows.
@@ -94,18 +71,23 @@ impl Recording {
     /// # Errors
     /// [`InstrumentError::Write`] where the file could not be written.
     pub fn finish(self, metrics: &serde_json::Value) -> Result<(), InstrumentError> {
-        if self.options.level == Level::Off {
-            return Ok(());
-        }
-        let json = TextDocument::new(metrics.to_string()).with_media_type("application/json");
-        fixed(&self.stream, &METRICS.into(), &json)?;
-        let table = TextDocument::from_markdown(layout::result(metrics));
-        fixed(&self.stream, &RESULT.into(), &table)?;
-        self.flush()?;
+        let Some(stage) = &self.stage else { return Ok(()) };
+        stage.metrics(metrics)?;
+        stage.text(RESULT, layout::result(metrics))?;
         // Recorders may still hold the stream: only this ends the file properly.
-        self.stream.disconnect();
-        Ok(())
+        stage.end()
     }
+}
+
+/// Sends what the recording says about itself: a page, the config, the classes of cells.
+fn describe(stage: &Stage, options: &RecordingOptions) -> Result<(), InstrumentError> {
+    stage.about(layout::about(options))?;
+    stage.text(CONFIG, format!("```toml\n{}\n```\n", options.config.trim_end()))?;
+    let classes = palette::CELL_CLASSES.map(|(id, label, colour)| {
+        let colour = rerun::datatypes::Rgba32(colour);
+        rerun::AnnotationInfo::from((u16::from(id), label, colour))
+    });
+    fixed(&stage.stream, &"/".into(), &AnnotationContext::new(classes))
 }
 
 /// The messages that make up a layout, and the id of its store.

@@ -1,21 +1,16 @@
 //! The listener of an optimiser.
 
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use posegraph::{FactorGraph, Iteration, Manifold, OptimizerEvent, Report};
 use probe::Probe;
-use rerun::external::arrow::array::StringArray;
-use rerun::external::re_sdk_types::SerializedComponentBatch;
-use rerun::{
-    AnyValues, AsComponents as _, BarChart, RecordingStream, RecordingStreamBuilder, Scalars,
-    SeriesLines, TextDocument, TextLog,
-};
+use rerun::{AnyValues, BarChart};
 
 use super::draw::{self, DrawnPose, REJECTED, Strokes};
 use super::page;
-use crate::columns::{Rgba, VARIANT, eye, fixed, rgb};
-use crate::recording::{ABOUT, METRICS, RESULT};
+use crate::columns::{Rgba, eye, fixed, rgb};
+use crate::recording::RESULT;
+use crate::stage::Stage;
 use crate::{InstrumentError, layout, palette};
 
 /// The names of the events of an optimiser.
@@ -44,7 +39,7 @@ pub struct OptimisationOptions {
 /// count goes on. Of graphs whose drawings would take more than about 48 MB only some iterations are
 /// drawn, the last among them; plots and events are complete.
 pub struct OptimisationRecording<'a, P, const D: usize> {
-    stream: RecordingStream,
+    stage: Stage,
     options: OptimisationOptions,
     graph: &'a FactorGraph<P, D>,
     /// On the timeline; none yet before the first event.
@@ -65,29 +60,16 @@ impl<'a, P: Manifold<D> + DrawnPose, const D: usize> OptimisationRecording<'a, P
         graph: &'a FactorGraph<P, D>,
         options: OptimisationOptions,
     ) -> Result<Self, InstrumentError> {
-        let refuse = |reason: String| InstrumentError::Write { path: options.path.clone(), reason };
-        let stream = RecordingStreamBuilder::new("driftlab")
-            .recording_name(options.name.clone())
-            .save(&options.path)
-            .map_err(|e| refuse(e.to_string()))?;
-        stream.set_log_time_enabled(false);
-        stream.set_log_tick_enabled(false);
-        let about = page::about(&options.name, &options.about, None);
-        fixed(&stream, &ABOUT.into(), &TextDocument::from_markdown(about))?;
+        let stage = Stage::create(&options.path, &options.name)?;
+        stage.about(page::about(&options.name, &options.about, None))?;
         if P::IN_SPACE {
-            fixed(&stream, &"/".into(), &rerun::ViewCoordinates::RIGHT_HAND_Z_UP())?;
+            fixed(&stage.stream, &"/".into(), &rerun::ViewCoordinates::RIGHT_HAND_Z_UP())?;
         } else {
-            eye(&stream, "/eye")?;
+            eye(&stage.stream, "/eye")?;
         }
-        for (name, title, colour) in PLOTS {
-            let look = SeriesLines::new()
-                .with_names([title])
-                .with_colors([rerun::Color::from_u32(colour)])
-                .with_widths([2.0]);
-            fixed(&stream, &format!("plots/{name}").as_str().into(), &look)?;
-        }
+        stage.looks(PLOTS)?;
         Ok(Self {
-            stream,
+            stage,
             options,
             graph,
             iteration: None,
@@ -107,21 +89,14 @@ impl<'a, P: Manifold<D> + DrawnPose, const D: usize> OptimisationRecording<'a, P
         if let Some(refusal) = self.refusal.take() {
             return Err(refusal);
         }
-        let json = TextDocument::new(metrics.to_string()).with_media_type("application/json");
-        fixed(&self.stream, &METRICS.into(), &json)?;
-        self.stream.flush_blocking().map_err(|e| InstrumentError::Write {
-            path: self.options.path.clone(),
-            reason: e.to_string(),
-        })?;
-        self.stream.disconnect();
-        Ok(())
+        self.stage.metrics(metrics)?;
+        self.stage.end()
     }
 
     /// Sends the layout, which shows where the poses start.
     fn lay_out(&self, start: &[P]) -> Result<(), InstrumentError> {
         let look = layout::GraphLook { in_space: P::IN_SPACE, bounds_m: bounds(start) };
-        layout::send_graph(&self.stream, &look)
-            .map_err(|reason| InstrumentError::Write { path: self.options.path.clone(), reason })
+        layout::send_graph(&self.stage.stream, &look).map_err(|reason| self.stage.refused(reason))
     }
 
     fn attempt(&mut self, what: impl FnOnce(&mut Self) -> Result<(), InstrumentError>) {
@@ -136,7 +111,7 @@ impl<'a, P: Manifold<D> + DrawnPose, const D: usize> OptimisationRecording<'a, P
     fn advance(&mut self) {
         let next = self.iteration.map_or(0, |iteration| iteration + 1);
         self.iteration = Some(next);
-        self.stream.set_time_sequence("iteration", next);
+        self.stage.stream.set_time_sequence("iteration", next);
     }
 
     /// Logs an event: its name as data, and one line of text.
@@ -145,23 +120,7 @@ impl<'a, P: Manifold<D> + DrawnPose, const D: usize> OptimisationRecording<'a, P
         variant: &'static str,
         line: std::fmt::Arguments<'_>,
     ) -> Result<(), InstrumentError> {
-        const PATH: &str = "graph/events/optimizer";
-        let mut batches = TextLog::new(format!("{variant}: {line}")).as_serialized_batches();
-        let name = Arc::new(StringArray::from(vec![variant]));
-        batches.push(SerializedComponentBatch::new(name, VARIANT.clone()));
-        self.stream.log_serialized_batches(PATH, false, batches).map_err(|error| {
-            InstrumentError::Rows { entity: PATH.to_owned(), reason: error.to_string() }
-        })
-    }
-
-    fn plot(&self, name: &str, value: f64) -> Result<(), InstrumentError> {
-        if !value.is_finite() {
-            return Ok(());
-        }
-        let entity = format!("plots/{name}");
-        self.stream.log(entity.as_str(), &Scalars::single(value)).map_err(|error| {
-            InstrumentError::Rows { entity: entity.clone(), reason: error.to_string() }
-        })
+        self.stage.say("graph/events/optimizer", variant, line)
     }
 
     /// Whether the drawing of this iteration is sent: all at first, then ever fewer.
@@ -176,7 +135,7 @@ impl<'a, P: Manifold<D> + DrawnPose, const D: usize> OptimisationRecording<'a, P
         self.weights.clear();
         self.weights.extend_from_slice(weights);
         let rejected = (0..chi2.len()).filter(|&index| self.is_rejected(index)).count();
-        self.plot("rejected_edges", rejected as f64)?;
+        self.stage.plot("rejected_edges", rejected as f64)?;
         self.histogram(chi2)?;
         self.drawn = self.is_drawn();
         if self.drawn {
@@ -230,15 +189,15 @@ impl<'a, P: Manifold<D> + DrawnPose, const D: usize> OptimisationRecording<'a, P
             kind.colours.push(colour);
         }
         for strokes in [closures, odometry, rejected] {
-            strokes.send(&self.stream, P::IN_SPACE)?;
+            strokes.send(&self.stage.stream, P::IN_SPACE)?;
         }
         let at = poses.iter().map(DrawnPose::position_m);
         let look = if P::IN_SPACE { rgb(235, 240, 250) } else { palette::ODOMETRY };
-        draw::send_points(&self.stream, "graph/poses", at, P::IN_SPACE, (look, 1.4))?;
+        draw::send_points(&self.stage.stream, "graph/poses", at, P::IN_SPACE, (look, 1.4))?;
         if let Some(first) = poses.first() {
             let at = std::iter::once(first.position_m());
             let look = (palette::GOAL, 5.0);
-            draw::send_points(&self.stream, "graph/first_pose", at, P::IN_SPACE, look)?;
+            draw::send_points(&self.stage.stream, "graph/first_pose", at, P::IN_SPACE, look)?;
         }
         let mut numbers = AnyValues::default()
             .with_component::<rerun::components::Opacity>("residual_sigmas", residuals);
@@ -247,7 +206,7 @@ impl<'a, P: Manifold<D> + DrawnPose, const D: usize> OptimisationRecording<'a, P
             let weights: Vec<f32> = self.weights.iter().map(|&weight| weight as f32).collect();
             numbers = numbers.with_component::<rerun::components::Opacity>("weight", weights);
         }
-        self.stream.log("edges/numbers", &numbers).map_err(|error| InstrumentError::Rows {
+        self.stage.stream.log("edges/numbers", &numbers).map_err(|error| InstrumentError::Rows {
             entity: "edges/numbers".to_owned(),
             reason: error.to_string(),
         })
@@ -264,7 +223,7 @@ impl<'a, P: Manifold<D> + DrawnPose, const D: usize> OptimisationRecording<'a, P
         }
         let logarithms: Vec<f64> = (0..BARS).map(|bar| bar as f64 - 4.5).collect();
         let bars = BarChart::new(counts.to_vec()).with_abscissa(logarithms);
-        self.stream.log("edges/histogram", &bars).map_err(|error| InstrumentError::Rows {
+        self.stage.stream.log("edges/histogram", &bars).map_err(|error| InstrumentError::Rows {
             entity: "edges/histogram".to_owned(),
             reason: error.to_string(),
         })
@@ -272,11 +231,11 @@ impl<'a, P: Manifold<D> + DrawnPose, const D: usize> OptimisationRecording<'a, P
 
     fn iterated(&mut self, iteration: &Iteration) -> Result<(), InstrumentError> {
         let Iteration { index, cost, damping, step_norm, gain_ratio, accepted, .. } = *iteration;
-        self.plot("log10_cost", cost.log10())?;
-        self.plot("log10_damping", damping.log10())?;
-        self.plot("log10_step_norm", step_norm.log10())?;
-        self.plot("gain_ratio", gain_ratio.clamp(-2.0, 2.0))?;
-        self.plot("accepted", f64::from(u8::from(accepted)))?;
+        self.stage.plot("log10_cost", cost.log10())?;
+        self.stage.plot("log10_damping", damping.log10())?;
+        self.stage.plot("log10_step_norm", step_norm.log10())?;
+        self.stage.plot("gain_ratio", gain_ratio.clamp(-2.0, 2.0))?;
+        self.stage.plot("accepted", f64::from(u8::from(accepted)))?;
         let taken = if accepted { "taken" } else { "taken back" };
         self.say(
             "Iterated",
@@ -297,8 +256,7 @@ impl<'a, P: Manifold<D> + DrawnPose, const D: usize> OptimisationRecording<'a, P
             .filter(|&index| self.is_rejected(index))
             .map(name_of)
             .collect();
-        let page = TextDocument::from_markdown(page::result(report, &rejected));
-        fixed(&self.stream, &RESULT.into(), &page)?;
+        self.stage.text(RESULT, page::result(report, &rejected))?;
         self.say(
             "Finished",
             format_args!(
@@ -326,9 +284,9 @@ impl<'e, P: Manifold<D> + DrawnPose, const D: usize> Probe<OptimizerEvent<'e, P>
                     }
                     let options = &this.options;
                     let about = page::about(&options.name, &options.about, Some(&fill));
-                    fixed(&this.stream, &ABOUT.into(), &TextDocument::from_markdown(about))?;
+                    this.stage.about(about)?;
                     let cost: f64 = factor_chi2.iter().sum();
-                    this.plot("log10_cost", cost.log10())?;
+                    this.stage.plot("log10_cost", cost.log10())?;
                     this.say(
                         "Started",
                         format_args!(

@@ -5,13 +5,13 @@ use serde_json::Value;
 use solid::{BooleanEvent, Polyhedron};
 
 use super::SolidOptions;
-use super::stage::{OPERANDS, Stage};
+use super::stage::{OPERANDS, SolidStage};
 use crate::columns::rgb;
 use crate::{InstrumentError, palette};
 
 /// The recording of one boolean, or of the unions that make a map: a probe.
 pub struct BooleanRecording {
-    stage: Stage,
+    stage: SolidStage,
     result: String,
 }
 
@@ -35,7 +35,7 @@ impl BooleanRecording {
             ("labels: obstacle grey, frontier orange", &["labels"]),
             ("where from: first operand blue, second green", &["operands", "curve", "changed"]),
         ];
-        Ok(Self { stage: Stage::create(&options, &panels)?, result: String::new() })
+        Ok(Self { stage: SolidStage::create(&options, &panels)?, result: String::new() })
     }
 
     /// Ends the recording; `metrics` is kept as JSON.

@@ -5,12 +5,12 @@ use serde_json::Value;
 use solid::ReduceEvent;
 
 use super::SolidOptions;
-use super::stage::Stage;
+use super::stage::SolidStage;
 use crate::{InstrumentError, palette};
 
 /// The recording of one reduction: a probe.
 pub struct ReduceRecording {
-    stage: Stage,
+    stage: SolidStage,
     result: String,
 }
 
@@ -29,7 +29,7 @@ impl ReduceRecording {
         let options = SolidOptions { about: page, ..options.clone() };
         let panels: [(&str, &[&str]); 1] =
             [("the mesh: obstacle grey, frontier orange", &["labels", "collapse"])];
-        Ok(Self { stage: Stage::create(&options, &panels)?, result: String::new() })
+        Ok(Self { stage: SolidStage::create(&options, &panels)?, result: String::new() })
     }
 
     /// Ends the recording; `metrics` is kept as JSON.

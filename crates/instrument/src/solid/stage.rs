@@ -2,18 +2,13 @@
 
 use std::fmt::Arguments;
 use std::path::PathBuf;
-use std::sync::Arc;
 
-use rerun::external::arrow::array::StringArray;
-use rerun::external::re_sdk_types::SerializedComponentBatch;
-use rerun::{
-    AsComponents as _, Color, LineStrips3D, Mesh3D, Points3D, RecordingStream,
-    RecordingStreamBuilder, TextDocument, TextLog,
-};
+use rerun::{Color, LineStrips3D, Mesh3D, Points3D};
 use solid::{Label, Point3, Polyhedron};
 
-use crate::columns::{Rgba, VARIANT, fixed, rgb, rgba};
-use crate::recording::{ABOUT, METRICS, RESULT};
+use crate::columns::{Rgba, fixed, rgb, rgba};
+use crate::recording::RESULT;
+use crate::stage::Stage;
 use crate::{InstrumentError, layout, palette};
 
 /// What a recording of work on a mesh says about itself.
@@ -35,44 +30,33 @@ pub(super) const fn colour(label: Label) -> Rgba {
     }
 }
 
-/// A file, the count of its events, and its first refusal.
-pub(super) struct Stage {
-    stream: RecordingStream,
-    path: PathBuf,
+/// A recording, the count of its events, and its first refusal.
+pub(super) struct SolidStage {
+    stage: Stage,
     event: i64,
     refusal: Option<InstrumentError>,
 }
 
-impl Stage {
+impl SolidStage {
     /// Creates the file with its layout and text page; `panels` are its 3D views.
     pub(super) fn create(
         options: &SolidOptions,
         panels: &[(&str, &[&str])],
     ) -> Result<Self, InstrumentError> {
-        let refuse = |reason: String| InstrumentError::Write { path: options.path.clone(), reason };
-        let stream = RecordingStreamBuilder::new("driftlab")
-            .recording_name(options.name.clone())
-            .save(&options.path)
-            .map_err(|e| refuse(e.to_string()))?;
-        stream.set_log_time_enabled(false);
-        stream.set_log_tick_enabled(false);
-        layout::send_solid(&stream, panels).map_err(refuse)?;
-        let about = format!("# {}\n\n{}\n", options.name, options.about);
-        fixed(&stream, &ABOUT.into(), &TextDocument::from_markdown(about))?;
-        fixed(&stream, &"/".into(), &rerun::ViewCoordinates::RIGHT_HAND_Z_UP())?;
-        Ok(Self { stream, path: options.path.clone(), event: -1, refusal: None })
+        let stage = Stage::create(&options.path, &options.name)?;
+        layout::send_solid(&stage.stream, panels).map_err(|reason| stage.refused(reason))?;
+        stage.about(format!("# {}\n\n{}\n", options.name, options.about))?;
+        fixed(&stage.stream, &"/".into(), &rerun::ViewCoordinates::RIGHT_HAND_Z_UP())?;
+        Ok(Self { stage, event: -1, refusal: None })
     }
 
     /// Goes to the next event and writes one line about it.
     pub(super) fn event(&mut self, variant: &'static str, line: Arguments<'_>) {
-        const PATH: &str = "events/solid";
         self.event += 1;
-        self.stream.set_time_sequence("event", self.event);
-        let mut batches = TextLog::new(format!("{variant}: {line}")).as_serialized_batches();
-        let name = Arc::new(StringArray::from(vec![variant]));
-        batches.push(SerializedComponentBatch::new(name, VARIANT.clone()));
-        let sent = self.stream.log_serialized_batches(PATH, false, batches);
-        self.note(PATH, sent);
+        self.stage.stream.set_time_sequence("event", self.event);
+        if let Err(refused) = self.stage.say("events/solid", variant, line) {
+            self.refusal.get_or_insert(refused);
+        }
     }
 
     fn note(&mut self, entity: &str, sent: Result<(), rerun::RecordingStreamError>) {
@@ -100,7 +84,7 @@ impl Stage {
         }
         let each = colours.iter().flat_map(|&colour| [Color::from_u32(colour); 3]);
         let shown = Mesh3D::new(corners).with_vertex_normals(normals).with_vertex_colors(each);
-        let sent = self.stream.log(entity, &shown);
+        let sent = self.stage.stream.log(entity, &shown);
         self.note(entity, sent);
     }
 
@@ -110,7 +94,7 @@ impl Stage {
         let shown = LineStrips3D::new(strips)
             .with_colors([Color::from_u32(colour)])
             .with_radii([rerun::Radius::new_ui_points(points)]);
-        let sent = self.stream.log(entity, &shown);
+        let sent = self.stage.stream.log(entity, &shown);
         self.note(entity, sent);
     }
 
@@ -119,7 +103,7 @@ impl Stage {
         let shown = Points3D::new(at.iter().map(short))
             .with_colors([Color::from_u32(colour)])
             .with_radii([rerun::Radius::new_ui_points(points)]);
-        let sent = self.stream.log(entity, &shown);
+        let sent = self.stage.stream.log(entity, &shown);
         self.note(entity, sent);
     }
 
@@ -132,15 +116,9 @@ impl Stage {
         if let Some(refusal) = self.refusal.take() {
             return Err(refusal);
         }
-        fixed(&self.stream, &RESULT.into(), &TextDocument::from_markdown(result))?;
-        let json = TextDocument::new(metrics.to_string()).with_media_type("application/json");
-        fixed(&self.stream, &METRICS.into(), &json)?;
-        self.stream.flush_blocking().map_err(|e| InstrumentError::Write {
-            path: self.path.clone(),
-            reason: e.to_string(),
-        })?;
-        self.stream.disconnect();
-        Ok(())
+        self.stage.text(RESULT, result)?;
+        self.stage.metrics(metrics)?;
+        self.stage.end()
     }
 }
 

@@ -5,7 +5,7 @@ use serde_json::Value;
 use solid::{Point3, TetrahedraEvent};
 
 use super::SolidOptions;
-use super::stage::Stage;
+use super::stage::SolidStage;
 use crate::columns::rgb;
 use crate::{InstrumentError, palette};
 
@@ -14,7 +14,7 @@ const MOST_DRAWN: usize = 20_000;
 
 /// The recording of one tetrahedralisation: a probe.
 pub struct TetrahedraRecording {
-    stage: Stage,
+    stage: SolidStage,
     result: String,
 }
 
@@ -35,7 +35,7 @@ impl TetrahedraRecording {
         let options = SolidOptions { about: page, ..options.clone() };
         let panels: [(&str, &[&str]); 2] =
             [("the step: went red, came green", &["step", "mesh/labels"]), ("the mesh", &["mesh"])];
-        Ok(Self { stage: Stage::create(&options, &panels)?, result: String::new() })
+        Ok(Self { stage: SolidStage::create(&options, &panels)?, result: String::new() })
     }
 
     /// Ends the recording; `metrics` is kept as JSON.
