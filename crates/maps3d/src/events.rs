@@ -49,6 +49,11 @@ pub enum DepthEvent<'a> {
         /// The mesh at that moment.
         mesh: &'a ImageMesh,
     },
+    /// Vertices were taken out again, down to the number that was asked for.
+    Thinned {
+        /// The mesh.
+        mesh: &'a ImageMesh,
+    },
     /// Sides were turned to the other diagonal of their quadrangle.
     Flipped {
         /// The round, from 0.
@@ -89,5 +94,5 @@ pub enum DepthEvent<'a> {
     },
 }
 
-probe::variants!(DepthEvent<'_>: Prepared, Triangulated, Removed, Inserted, Reached, Flipped, Fitted,
+probe::variants!(DepthEvent<'_>: Prepared, Triangulated, Removed, Inserted, Reached, Thinned, Flipped, Fitted,
     Withheld, Reduced, Labelled, Joined);

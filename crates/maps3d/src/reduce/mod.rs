@@ -44,6 +44,25 @@ pub enum Method {
     InverseDepth(InverseDepth),
 }
 
+impl Method {
+    /// What the methods are called.
+    pub const NAMES: [&str; 5] =
+        ["centroid", "least-squares", "least-squares-vertical", "quadric", "inverse-depth"];
+
+    /// The method of a name, with its usual options.
+    pub fn named(name: &str, hole: HoleMethod) -> Option<Self> {
+        let removal = |contribution| Some(Self::Removal { contribution, hole });
+        match name {
+            "centroid" => removal(Contribution::Centroid),
+            "least-squares" => removal(Contribution::LeastSquares),
+            "least-squares-vertical" => removal(Contribution::LeastSquaresVertical),
+            "quadric" => Some(Self::Quadric),
+            "inverse-depth" => Some(Self::InverseDepth(InverseDepth::default())),
+            _ => None,
+        }
+    }
+}
+
 /// When a reduction ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stop {
@@ -174,6 +193,9 @@ fn check(options: &ReduceOptions) -> Result<(), Maps3dError> {
         }
         if !(0.0..=1.0).contains(&own.edge_on) {
             return refuse("edge_on", own.edge_on, "a sine from 0 to 1");
+        }
+        if !(0.0..=1.0).contains(&own.missing_weight) {
+            return refuse("missing_weight", own.missing_weight, "a share from 0 to 1");
         }
         if own.fit_m.is_nan() || own.fit_m < 0.0 {
             return refuse("fit_m", own.fit_m, "a distance from 0 m up");

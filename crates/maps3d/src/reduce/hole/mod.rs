@@ -35,6 +35,21 @@ impl HoleMethod {
     /// All methods.
     pub const ALL: [Self; 4] =
         [Self::EarClipping, Self::OptimalEdgeLength, Self::Monotone, Self::ConstrainedDelaunay];
+
+    /// What it is called.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::EarClipping => "ear-clipping",
+            Self::OptimalEdgeLength => "optimal-edge-length",
+            Self::Monotone => "monotone",
+            Self::ConstrainedDelaunay => "constrained-delaunay",
+        }
+    }
+
+    /// The method of a name.
+    pub fn named(name: &str) -> Option<Self> {
+        Self::ALL.into_iter().find(|method| method.name() == name)
+    }
 }
 
 /// A triangle of a hole: places in the list of its pixels.

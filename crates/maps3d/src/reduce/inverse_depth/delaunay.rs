@@ -1,7 +1,7 @@
 //! A Delaunay triangulation of pixels that grows by one pixel at a time, in whole numbers.
 
 use crate::image::Pixel;
-use crate::triangulate::orient;
+use crate::triangulate::{ImageMesh, orient};
 
 /// No triangle: beyond the border of the image.
 pub(super) const NONE: u32 = u32::MAX;
@@ -36,6 +36,30 @@ impl Delaunay {
             corners: vec![[0, 1, 2], [0, 2, 3]],
             neighbours: vec![[NONE, 1, NONE], [NONE, NONE, 0]],
             changed: vec![0, 1],
+        }
+    }
+
+    /// Links the faces of any planar triangulation; it need not be Delaunay. O(faces log faces).
+    pub fn of_mesh(mesh: &ImageMesh) -> Self {
+        let mut sides: Vec<(u32, u32, u32, usize)> = Vec::with_capacity(3 * mesh.triangles.len());
+        for (triangle, corners) in mesh.triangles.iter().enumerate() {
+            for side in 0..3 {
+                let (a, b) = (corners[(side + 1) % 3], corners[(side + 2) % 3]);
+                sides.push((a, b, triangle as u32, side));
+            }
+        }
+        sides.sort_unstable();
+        let mut neighbours = vec![[NONE; 3]; mesh.triangles.len()];
+        for &(a, b, triangle, side) in &sides {
+            if let Ok(at) = sides.binary_search_by_key(&(b, a), |&(a, b, ..)| (a, b)) {
+                neighbours[triangle as usize][side] = sides[at].2;
+            }
+        }
+        Self {
+            pixels: mesh.pixels.clone(),
+            corners: mesh.triangles.clone(),
+            neighbours,
+            changed: Vec::new(),
         }
     }
 
@@ -176,7 +200,7 @@ impl Delaunay {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::triangulate::{ImageMesh, check_planar};
+    use crate::triangulate::check_planar;
 
     /// The triangle that holds the pixel, by a look at all.
     fn holder(mesh: &Delaunay, p: Pixel) -> u32 {
@@ -219,6 +243,7 @@ mod tests {
             };
             let (c, r) = (usize::from(columns), usize::from(rows));
             assert_eq!(check_planar(&plain, c, r), Ok(()), "{seed}");
+            assert_eq!(Delaunay::of_mesh(&plain).neighbours, mesh.neighbours);
             for t in 0..mesh.corners.len() as u32 {
                 let [a, b, c] = mesh.pixels_of(t);
                 for side in 0..3 {

@@ -23,7 +23,12 @@ const TIE: f64 = 1e-3;
 /// farther they are (weight `1 / (1 + (e / cap)^2)^2`, Geman and McClure): they belong to something
 /// else than the face. Solved by conjugate gradients from where the vertices are.
 /// O(pixels) per round, [`ROUNDS`] rounds.
-pub(super) fn fit(image: &FilledImage, mesh: &mut ImageMesh, options: &InverseDepth) {
+pub(super) fn fit(
+    image: &FilledImage,
+    signed_m: &[f32],
+    mesh: &mut ImageMesh,
+    options: &InverseDepth,
+) {
     let mut inverse: Vec<f64> = mesh.depths_m.iter().map(|depth_m| 1.0 / depth_m).collect();
     let mut system = System::default();
     let (near, far) = image
@@ -32,7 +37,7 @@ pub(super) fn fit(image: &FilledImage, mesh: &mut ImageMesh, options: &InverseDe
         .fold((f32::INFINITY, 0.0_f32), |(near, far), &z| (near.min(z), far.max(z)));
     let range = [1.0 / f64::from(far), 1.0 / f64::from(near)];
     for _ in 0..ROUNDS {
-        system.assemble(image, mesh, &inverse, options);
+        system.assemble(image, signed_m, mesh, &inverse, options);
         system.solve(mesh, &mut inverse, range);
     }
     for (depth_m, inverse) in mesh.depths_m.iter_mut().zip(&inverse) {
@@ -53,6 +58,7 @@ impl System {
     fn assemble(
         &mut self,
         image: &FilledImage,
+        signed_m: &[f32],
         mesh: &ImageMesh,
         inverse: &[f64],
         options: &InverseDepth,
@@ -64,7 +70,7 @@ impl System {
         self.right.resize(vertices, 0.0);
         self.couplings.clear();
         for &triangle in &mesh.triangles {
-            let sums = face_sums(image, mesh, triangle, inverse, options);
+            let sums = face_sums(image, signed_m, mesh, triangle, inverse, options);
             let [a, b, c] = triangle.map(|v| v as usize);
             for (vertex, square, right) in
                 [(a, sums[0], sums[6]), (b, sums[1], sums[7]), (c, sums[2], sums[8])]
@@ -135,6 +141,7 @@ impl System {
 #[expect(clippy::cast_possible_truncation, reason = "depths are measured to fewer digits")]
 fn face_sums(
     image: &FilledImage,
+    signed_m: &[f32],
     mesh: &ImageMesh,
     triangle: [u32; 3],
     inverse: &[f64],
@@ -155,23 +162,25 @@ fn face_sums(
         .map(|(p, q)| -(f64::from(corners[q][1]) - f64::from(corners[p][1])) / area);
     let [step_a, step_b] = steps.map(|step| step as f32);
     let offset = (plane.offset_m * plane.emphasis(at_corners, options.edge_on)) as f32;
-    let cap = options.fit_m as f32;
+    let (cap, missing) = (options.fit_m as f32, options.missing_weight as f32);
     let [wa, wb, wc] = at_corners.map(|w| w as f32);
     let mut totals = [0.0_f64; 9];
     for span in rows_of(corners) {
-        let row = &image.depths_m()[span.row * image.columns()..][span.first..=span.last];
+        let row = &signed_m[span.row * image.columns()..][span.first..=span.last];
         let start = [span.first as f64, span.row as f64];
         let first_a = share(corners[1], corners[2], start) as f32;
         let first_b = share(corners[2], corners[0], start) as f32;
         let mut sums = [[0.0_f32; LANES]; 9];
         let mut pixel = |lane: usize, at: f32, depth_m: f32| {
+            let share = if depth_m < 0.0 { missing } else { 1.0 };
+            let depth_m = depth_m.abs();
             let (a, b) = (first_a + at * step_a, first_b + at * step_b);
             let c = 1.0 - a - b;
             let off = (a * wa + b * wb + c * wc) * depth_m - 1.0;
             let error = off * offset / cap;
             let calm = 1.0 / (1.0 + error * error);
             let scale = offset * depth_m;
-            let weight = calm * calm * scale * scale;
+            let weight = share * calm * calm * scale * scale;
             let target = weight / depth_m;
             for (sum, term) in sums.iter_mut().zip([
                 weight * a * a,

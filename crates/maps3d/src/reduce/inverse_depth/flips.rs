@@ -11,9 +11,11 @@ use crate::triangulate::orient;
 /// steps. Returns the number of exchanges.
 ///
 /// One round looks at each side once; faces stay of positive turn, so the triangulation stays planar,
-/// but no longer Delaunay. `inverse` holds the inverse depth of each vertex. O(pixels) per round.
+/// but no longer Delaunay. `inverse` holds the inverse depth of each vertex;
+/// depths of missing pixels are negative. O(pixels) per round.
 pub(super) fn flip_round(
     image: &FilledImage,
+    signed_m: &[f32],
     mesh: &mut Delaunay,
     inverse: &[f64],
     options: &InverseDepth,
@@ -26,7 +28,8 @@ pub(super) fn flip_round(
         #[expect(clippy::cast_possible_truncation, reason = "an order, not a measurement")]
         let (cap_m, emphasis) =
             ((options.cap_at(mesh.pixels.len()) / emphasis) as f32, emphasis as f32);
-        scan(image.depths_m(), image.columns(), pixels, &plane, cap_m).sum_m * emphasis
+        let weight = options.missing_weight as f32;
+        scan(signed_m, image.columns(), pixels, &plane, cap_m, weight).sum_m * emphasis
     };
     let mut costs: Vec<f32> = mesh.corners.iter().map(|&corners| cost_of(mesh, corners)).collect();
     let mut flips = 0;

@@ -7,6 +7,7 @@ use super::fit::fit;
 use super::flips::flip_round;
 use super::guide::median_of_nine;
 use super::scan::{LiftedPlane, Scanned, scan};
+use super::thin::thin;
 use crate::DepthEvent;
 use crate::image::FilledImage;
 use crate::reduce::Stop;
@@ -27,6 +28,9 @@ pub struct InverseDepth {
     pub median: bool,
     /// Rounds in which sides are turned.
     pub flip_rounds: usize,
+    /// How much the distance of a missing pixel counts, from 0 to 1: it was never measured, and lies at
+    /// the far distance by agreement.
+    pub missing_weight: f64,
     /// Depths of vertices are fitted to all pixels; pixels farther off than this hardly count,
     /// metres. Not at all where it is 0.
     pub fit_m: f64,
@@ -41,11 +45,12 @@ impl Default for InverseDepth {
             median: true,
             flip_rounds: 2,
             fit_m: 0.05,
+            missing_weight: 0.02,
         }
     }
 }
 
-/// Below so many vertices the cap is larger, in proportion: a face that covers several surfaces has
+/// Below so many vertices, more are put in and thinned out; and the cap is larger, in proportion: a face that covers several surfaces has
 /// most of its pixels beyond any small cap, and the sum would no longer tell good from bad.
 const COARSE: f64 = 400.0;
 
@@ -53,6 +58,11 @@ impl InverseDepth {
     /// The cap while there are so many vertices, metres.
     pub(super) fn cap_at(&self, vertices: usize) -> f64 {
         self.cap_m * (COARSE / vertices as f64).max(1.0)
+    }
+
+    /// How many vertices are put in where `count` are asked for: four times as many as are few.
+    fn first_of(count: usize) -> usize {
+        if (count as f64) < COARSE { (4 * count).min(2 * COARSE as usize) } else { count }
     }
 
     /// Vertices at measured depths, chosen by their distance alone: what a bound on the error asks for.
@@ -64,6 +74,7 @@ impl InverseDepth {
             median: false,
             flip_rounds: 0,
             fit_m: 0.0,
+            missing_weight: 1.0,
         }
     }
 }
@@ -76,9 +87,10 @@ impl InverseDepth {
 /// 3. The face that is worst by largest and summed distance gets its worst pixel as a vertex; sides
 ///    are turned until the triangulation is Delaunay again. Back to 2.
 /// 4. For a count of vertices, not for a bound: depths are fitted, sides turned, depths fitted again.
+///    Below [`COARSE`] vertices, four times as many are put in, and taken out again before that.
 ///
-/// With a bound, vertices keep their measured depths, no median is taken and step 4 is left out: the
-/// bound then holds for every pixel. O(pixels log vertices) for images in which detail is spread.
+/// With a bound, vertices keep their measured depths, no median is taken, missing pixels count like
+/// others and step 4 is left out: the bound then holds for every pixel. O(pixels log vertices) for images in which detail is spread.
 pub(in crate::reduce) fn grow<P>(
     image: &FilledImage,
     options: &InverseDepth,
@@ -91,11 +103,19 @@ where
 {
     let exact = InverseDepth::exact();
     let options = if stop.error_m().is_some() { &exact } else { options };
-    let smooth = options.median.then(|| median_of_nine(image));
-    let guide = smooth.as_deref().unwrap_or(image.depths_m());
-    let mut grown = Grown::new(image, guide, options);
+    let signed_m = (options.missing_weight < 1.0).then(|| signed(image, image.depths_m()));
+    let signed_m = signed_m.as_deref().unwrap_or(image.depths_m());
+    let smooth = options.median.then(|| {
+        let median = median_of_nine(image);
+        if options.missing_weight < 1.0 { signed(image, &median) } else { median }
+    });
+    let guide = smooth.as_deref().unwrap_or(signed_m);
+    let mut grown = Grown::new(image, guide, signed_m, options);
     let mut steps: Vec<usize> = ladder.to_vec();
     steps.sort_unstable_by(|a, b| b.cmp(a));
+    // Few vertices are chosen from more of them.
+    let count = stop.vertices();
+    let most = count.map(|count| InverseDepth::first_of(count));
     loop {
         grown.measure_changed();
         let vertices = grown.mesh.pixels.len();
@@ -104,7 +124,7 @@ where
                 probe.emit(DepthEvent::Reached { image, mesh: &grown.image_mesh() });
             }
         }
-        if stop.vertices().is_some_and(|enough| vertices >= enough) {
+        if most.is_some_and(|most| vertices >= most) {
             break;
         }
         let Some(triangle) = grown.worst(stop.error_m().unwrap_or(0.0)) else { break };
@@ -118,8 +138,11 @@ where
     if options.fit_m > 0.0 {
         grown.fit(probe);
     }
+    if let Some(count) = count.filter(|&count| count < grown.mesh.pixels.len()) {
+        grown.thin(count, probe);
+    }
     for round in 0..options.flip_rounds {
-        let sides = flip_round(image, &mut grown.mesh, &grown.inverse, options);
+        let sides = flip_round(image, signed_m, &mut grown.mesh, &grown.inverse, options);
         probe.emit(DepthEvent::Flipped { round, sides });
     }
     if options.fit_m > 0.0 && options.flip_rounds > 0 {
@@ -128,9 +151,19 @@ where
     grown.image_mesh()
 }
 
+/// Depths with a minus where the pixel is missing.
+fn signed(image: &FilledImage, depths_m: &[f32]) -> Vec<f32> {
+    let sign =
+        |(at, &depth_m): (usize, &f32)| if image.is_missing(at) { -depth_m } else { depth_m };
+    depths_m.iter().enumerate().map(sign).collect()
+}
+
 struct Grown<'a> {
     image: &'a FilledImage,
+    /// What vertices are chosen by; negative where missing.
     guide: &'a [f32],
+    /// The image's depths; negative where missing.
+    signed_m: &'a [f32],
     options: &'a InverseDepth,
     mesh: Delaunay,
     /// Inverse depth of each vertex.
@@ -140,12 +173,17 @@ struct Grown<'a> {
 }
 
 impl<'a> Grown<'a> {
-    fn new(image: &'a FilledImage, guide: &'a [f32], options: &'a InverseDepth) -> Self {
+    fn new(
+        image: &'a FilledImage,
+        guide: &'a [f32],
+        signed_m: &'a [f32],
+        options: &'a InverseDepth,
+    ) -> Self {
         let mesh = Delaunay::new(image.corners());
-        let at = |&pixel: &_| 1.0 / f64::from(guide[image.index(pixel)]);
+        let at = |&pixel: &_| 1.0 / f64::from(guide[image.index(pixel)].abs());
         let inverse = mesh.pixels.iter().map(at).collect();
         let (scans, heap) = (Vec::new(), IndexedHeap::default());
-        Self { image, guide, options, mesh, inverse, scans, heap }
+        Self { image, guide, signed_m, options, mesh, inverse, scans, heap }
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "an order, not a measurement")]
@@ -158,7 +196,14 @@ impl<'a> Grown<'a> {
             let plane = LiftedPlane::through(self.image.camera(), pixels, inverse);
             let emphasis = plane.emphasis(inverse, self.options.edge_on) as f32;
             let cap_m = self.options.cap_at(self.mesh.pixels.len()) as f32 / emphasis;
-            let found = scan(self.guide, self.image.columns(), pixels, &plane, cap_m);
+            let found = scan(
+                self.guide,
+                self.image.columns(),
+                pixels,
+                &plane,
+                cap_m,
+                self.options.missing_weight as f32,
+            );
             let largest = found.worst_m.min(cap_m);
             let key = if weight == 0.0 {
                 largest
@@ -182,12 +227,22 @@ impl<'a> Grown<'a> {
     fn insert(&mut self, triangle: u32) {
         let pixel = self.scans[triangle as usize].worst;
         self.mesh.insert(pixel, triangle);
-        self.inverse.push(1.0 / f64::from(self.guide[self.image.index(pixel)]));
+        self.inverse.push(1.0 / f64::from(self.guide[self.image.index(pixel)].abs()));
+    }
+
+    fn thin<P: for<'e> Probe<DepthEvent<'e>>>(&mut self, count: usize, probe: &mut P) {
+        let mesh = thin(self.image, self.signed_m, &self.image_mesh(), count, self.options);
+        self.mesh = Delaunay::of_mesh(&mesh);
+        self.inverse = mesh.depths_m.iter().map(|depth_m| 1.0 / depth_m).collect();
+        probe.emit(DepthEvent::Thinned { mesh: &mesh });
+        if self.options.fit_m > 0.0 {
+            self.fit(probe);
+        }
     }
 
     fn fit<P: for<'e> Probe<DepthEvent<'e>>>(&mut self, probe: &mut P) {
         let mut mesh = self.image_mesh();
-        fit(self.image, &mut mesh, self.options);
+        fit(self.image, self.signed_m, &mut mesh, self.options);
         self.inverse = mesh.depths_m.iter().map(|depth_m| 1.0 / depth_m).collect();
         probe.emit(DepthEvent::Fitted { mesh: &mesh });
     }

@@ -9,6 +9,7 @@
 //! | `delaunay.rs` | a Delaunay triangulation that grows pixel by pixel, in whole numbers |
 //! | `scan.rs` | the distance of every pixel of a face from its lifted plane |
 //! | `grow.rs` | greedy insertion |
+//! | `thin.rs` | vertices taken out again, for few of them |
 //! | `flips.rs` | sides turned where that brings faces nearer to the pixels |
 //! | `fit.rs` | depths of vertices fitted to all pixels |
 
@@ -18,6 +19,7 @@ mod flips;
 mod grow;
 mod guide;
 mod scan;
+mod thin;
 
 pub(in crate::reduce) use delaunay::in_circle;
 pub use grow::InverseDepth;

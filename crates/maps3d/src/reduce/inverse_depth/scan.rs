@@ -75,7 +75,8 @@ pub(super) struct Scanned {
     pub sum_m: f32,
 }
 
-/// Looks at every pixel of a face. O(pixels); 8 at a time.
+/// Looks at every pixel of a face; negative depths are those of missing pixels, whose distance counts
+/// `missing_weight` times. O(pixels); 8 at a time.
 #[expect(clippy::cast_possible_truncation, reason = "depths are measured to fewer digits")]
 pub(super) fn scan(
     depths_m: &[f32],
@@ -83,7 +84,12 @@ pub(super) fn scan(
     corners: [Pixel; 3],
     plane: &LiftedPlane,
     cap_m: f32,
+    missing_weight: f32,
 ) -> Scanned {
+    let error_of = |depth_m: f32, along: f32, offset_m: f32| {
+        let weight = if depth_m < 0.0 { missing_weight } else { 1.0 };
+        (depth_m.abs() * along - offset_m).abs() * weight
+    };
     let (step, offset_m) = (plane.per_column as f32, plane.offset_m as f32);
     let mut found = Scanned::default();
     let ramp: [f32; LANES] = std::array::from_fn(|lane| lane as f32 * step);
@@ -97,14 +103,14 @@ pub(super) fn scan(
         let (chunks, rest) = row.as_chunks::<LANES>();
         for chunk in chunks {
             for lane in 0..LANES {
-                let error = (chunk[lane] * (along + ramp[lane]) - offset_m).abs();
+                let error = error_of(chunk[lane], along + ramp[lane], offset_m);
                 worst[lane] = if error > worst[lane] { error } else { worst[lane] };
                 sums[lane] += if error < cap_m { error } else { cap_m };
             }
             along += LANES as f32 * step;
         }
         for (lane, &depth_m) in rest.iter().enumerate() {
-            let error = (depth_m * (along + ramp[lane]) - offset_m).abs();
+            let error = error_of(depth_m, along + ramp[lane], offset_m);
             worst[lane] = if error > worst[lane] { error } else { worst[lane] };
             sums[lane] += if error < cap_m { error } else { cap_m };
         }
@@ -117,7 +123,7 @@ pub(super) fn scan(
             let mut at = span.first;
             'row: for chunk in row.chunks(LANES) {
                 for (lane, &depth_m) in chunk.iter().enumerate() {
-                    if (depth_m * (along + ramp[lane]) - offset_m).abs() >= worst_m {
+                    if error_of(depth_m, along + ramp[lane], offset_m) >= worst_m {
                         at += lane;
                         break 'row;
                     }

@@ -89,11 +89,72 @@ impl Rings {
         Self { vertices, columns, rows, pool: Vec::new(), free: vec![Vec::new(); 32], alive }
     }
 
+    /// The rings of any planar triangulation of the image; vertices keep their numbers. O(faces).
+    pub fn of_mesh(image: &FilledImage, mesh: &ImageMesh) -> Self {
+        let blank = Vertex {
+            ring: [0; INLINE],
+            point_in_camera: [0.0; 3],
+            pixel: [0; 2],
+            length: 0,
+            border: false,
+        };
+        let mut rings = Self {
+            vertices: vec![blank; mesh.pixels.len()],
+            columns: image.columns(),
+            rows: image.rows(),
+            pool: Vec::new(),
+            free: vec![Vec::new(); 32],
+            alive: mesh.pixels.len(),
+        };
+        // Around each vertex, which neighbour comes after which.
+        let mut after: Vec<Vec<(u32, u32)>> = vec![Vec::new(); mesh.pixels.len()];
+        for &[a, b, c] in &mesh.triangles {
+            for (vertex, from, to) in [(a, b, c), (b, c, a), (c, a, b)] {
+                after[vertex as usize].push((from, to));
+            }
+        }
+        for (vertex, pairs) in after.iter().enumerate() {
+            let begins = |&(from, _): &(u32, u32)| pairs.iter().all(|&(_, to)| to != from);
+            let gap = pairs.iter().copied().find(begins);
+            let Some(&(mut at, _)) = gap.as_ref().or(pairs.first()) else { continue };
+            let mut ring = Vec::with_capacity(pairs.len() + 1);
+            while ring.len() <= pairs.len() {
+                ring.push(at);
+                let Some(&(_, next)) = pairs.iter().find(|(from, _)| *from == at) else { break };
+                at = next;
+            }
+            ring.truncate(pairs.len() + usize::from(gap.is_some()));
+            rings.vertices[vertex].pixel = mesh.pixels[vertex];
+            rings.vertices[vertex].border = gap.is_some();
+            rings.put(vertex as u32, &ring);
+        }
+        rings
+    }
+
+    /// The part of a mesh that is left of [`of_mesh`](Self::of_mesh), in the order of its vertices.
+    pub fn rest_of(&self, mesh: &ImageMesh) -> ImageMesh {
+        let alive: Vec<u32> =
+            (0..self.vertices.len() as u32).filter(|&v| !self.of(v).is_empty()).collect();
+        let mut rest = ImageMesh::default();
+        let mut numbers = vec![0_u32; self.vertices.len()];
+        for (number, &vertex) in alive.iter().enumerate() {
+            numbers[vertex as usize] = number as u32;
+            rest.pixels.push(mesh.pixels[vertex as usize]);
+            rest.depths_m.push(mesh.depths_m[vertex as usize]);
+        }
+        self.faces(&alive, &numbers, &mut rest.triangles);
+        rest
+    }
+
     /// The neighbours of a vertex.
     #[inline]
     pub fn of(&self, vertex: u32) -> &[u32] {
+        self.of_length(vertex, self.vertices[vertex as usize].length as usize)
+    }
+
+    #[inline]
+    fn of_length(&self, vertex: u32, length: usize) -> &[u32] {
         let vertex = &self.vertices[vertex as usize];
-        let length = vertex.length as usize;
         if length <= INLINE {
             &vertex.ring[..length]
         } else {
@@ -153,41 +214,45 @@ impl Rings {
         let held = &mut self.vertices[vertex as usize];
         let length = held.length as usize;
         let now = length + by.len() - 1;
-        held.length = now as u32;
         let (from, to) = (at + 1, at + by.len());
         if length <= INLINE && now <= INLINE {
+            held.length = now as u32;
             held.ring.copy_within(from..length, to);
             held.ring[at..to].copy_from_slice(by);
             return;
         }
         let start = held.ring[0] as usize;
         if length > INLINE && now > INLINE && class_of(length) == class_of(now) {
+            held.length = now as u32;
             self.pool.copy_within(start + from..start + length, start + to);
             self.pool[start + at..start + to].copy_from_slice(by);
             return;
         }
         // The ring moves between its vertex and blocks of other sizes.
-        let before = if length > INLINE {
+        let mut ring = self.of_length(vertex, length).to_vec();
+        if length > INLINE {
             self.free[class_of(length)].push(start as u32);
-            self.pool[start..start + length].to_vec()
-        } else {
-            held.ring[..length].to_vec()
-        };
-        let room = if now > INLINE {
-            let class = class_of(now);
-            let block = self.free[class].pop().unwrap_or_else(|| {
-                let block = self.pool.len();
-                self.pool.resize(block + (1 << class), 0);
-                block as u32
-            });
-            held.ring[0] = block;
-            &mut self.pool[block as usize..][..now]
-        } else {
-            &mut held.ring[..now]
-        };
-        room[..at].copy_from_slice(&before[..at]);
-        room[at..to].copy_from_slice(by);
-        room[to..].copy_from_slice(&before[from..]);
+        }
+        ring.splice(at..=at, by.iter().copied());
+        self.put(vertex, &ring);
+    }
+
+    /// Gives a vertex a ring; a block that it had is not given back.
+    fn put(&mut self, vertex: u32, ring: &[u32]) {
+        let held = &mut self.vertices[vertex as usize];
+        held.length = ring.len() as u32;
+        if ring.len() <= INLINE {
+            held.ring[..ring.len()].copy_from_slice(ring);
+            return;
+        }
+        let class = class_of(ring.len());
+        let block = self.free[class].pop().unwrap_or_else(|| {
+            let block = self.pool.len();
+            self.pool.resize(block + (1 << class), 0);
+            block as u32
+        });
+        held.ring[0] = block;
+        self.pool[block as usize..][..ring.len()].copy_from_slice(ring);
     }
 
     /// The mesh as it is now, with the image's own depths; vertices row by row. O(vertices of the
@@ -195,19 +260,21 @@ impl Rings {
     pub fn mesh(&self, image: &FilledImage) -> ImageMesh {
         let mut mesh = ImageMesh::default();
         let mut numbers = vec![0_u32; self.vertices.len()];
-        let (columns, rows) = (self.columns, self.rows);
-        let alive = || {
-            let pixels = (0..rows).flat_map(|row| (0..columns).map(move |column| (column, row)));
-            let vertices = pixels.map(|(c, r)| number_of(columns, rows, c, r) as u32);
-            vertices.filter(|&vertex| self.vertices[vertex as usize].length > 0)
-        };
-        for vertex in alive() {
+        let in_rows = (0..self.vertices.len()).map(|index| self.number_at(index));
+        let alive: Vec<u32> = in_rows.filter(|&vertex| !self.of(vertex).is_empty()).collect();
+        for &vertex in &alive {
             numbers[vertex as usize] = mesh.pixels.len() as u32;
             let pixel = self.pixel(vertex);
             mesh.pixels.push(pixel);
             mesh.depths_m.push(f64::from(image.depth_m(pixel)));
         }
-        for vertex in alive() {
+        self.faces(&alive, &numbers, &mut mesh.triangles);
+        mesh
+    }
+
+    /// The faces of some vertices, by the numbers that these have got.
+    fn faces(&self, vertices: &[u32], numbers: &[u32], faces: &mut Vec<[u32; 3]>) {
+        for &vertex in vertices {
             let ring = self.of(vertex);
             let closed = usize::from(!self.is_on_border(vertex));
             let least = numbers[vertex as usize];
@@ -215,11 +282,10 @@ impl Rings {
                 let [a, b] = [ring[i], ring[(i + 1) % ring.len()]].map(|v| numbers[v as usize]);
                 // Each face once, by its smallest vertex.
                 if least < a && least < b {
-                    mesh.triangles.push([least, a, b]);
+                    faces.push([least, a, b]);
                 }
             }
         }
-        mesh
     }
 }
 
@@ -254,6 +320,9 @@ mod tests {
                 faces
             };
             assert_eq!(sorted(&mesh.triangles), sorted(&grid(&image).triangles));
+            let again = Rings::of_mesh(&image, &mesh).rest_of(&mesh);
+            assert_eq!(again.pixels, mesh.pixels);
+            assert_eq!(sorted(&again.triangles), sorted(&mesh.triangles));
         }
     }
 
