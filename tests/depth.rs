@@ -180,3 +180,71 @@ fn bad_input_gets_one_message_and_leaves_nothing() {
         assert!(!folder.path().join("out.ply").exists());
     }
 }
+
+/// A config of a small room.
+const ROOM: &str = "name = \"small\"\n[depth]\ncrop = 2\n[room]\ncolumns = 64\nrows = 48\n[ladder]\n\
+                    methods = [\"centroid\", \"inverse-depth\"]\nvertices = [200, 50, 12]\n";
+
+#[test]
+fn a_ladder_shows_every_method_at_every_number() {
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("room.toml"), ROOM).expect("writable");
+    let told = json(&driftlab(folder.path(), &["mesh", "ladder", "room.toml", "--json"]));
+    let rungs: Vec<(String, u64)> = told["rungs"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .map(|rung| {
+            let method = rung["method"].as_str().expect("a name").to_owned();
+            (method, rung["vertices"].as_u64().expect("a count"))
+        })
+        .collect();
+    let expected = ["centroid", "inverse-depth"]
+        .iter()
+        .flat_map(|method| [200, 50, 12].map(|count| ((*method).to_owned(), count)));
+    assert_eq!(rungs, expected.collect::<Vec<_>>());
+    let held = json(&driftlab(folder.path(), &["inspect", "recordings/small.rrd", "--json"]));
+    assert_eq!(held["metrics"]["rungs"], told["rungs"]);
+    let paths: Vec<&str> = held["entities"]
+        .as_array()
+        .expect("a list")
+        .iter()
+        .filter_map(|entity| entity["path"].as_str())
+        .collect();
+    for method in ["centroid", "inverse_depth"] {
+        for path in ["view/{}/surface/obstacle", "plots/p95_m/{}", "image/{}/edges"] {
+            let path = path.replace("{}", method);
+            assert!(paths.iter().any(|p| p.trim_start_matches('/') == path), "{path} {paths:?}");
+        }
+    }
+    // Any image of the user's, too.
+    frame(folder.path());
+    let arguments = [
+        "mesh",
+        "ladder",
+        "room.toml",
+        "frame.pgm",
+        "--camera",
+        CAMERA,
+        "--record",
+        "a.rrd",
+        "--json",
+    ];
+    assert_eq!(json(&driftlab(folder.path(), &arguments))["file"], "frame.pgm");
+    // What is there is not replaced, and what is wrong leaves nothing.
+    for (text, arguments, words) in [
+        (ROOM, vec!["--record", "a.rrd"], "a.rrd: the file exists already"),
+        (ROOM, vec!["what.png", "--record", "b.rrd"], "what.png"),
+        (&ROOM.replace("crop = 2", "crop = 30"), vec!["--record", "b.rrd"], "30 are cropped"),
+        (&ROOM.replace("centroid", "middle"), vec!["--record", "b.rrd"], "room.toml:8:11"),
+    ] {
+        std::fs::write(folder.path().join("room.toml"), text).expect("writable");
+        let mut all = vec!["mesh", "ladder", "room.toml", "-q"];
+        all.extend(&arguments);
+        let output = driftlab(folder.path(), &all);
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {text}");
+        assert!(text.contains(words), "{arguments:?}: {text}");
+        assert!(!folder.path().join("b.rrd").exists());
+    }
+}

@@ -13,20 +13,16 @@ use maps3d::image::{FilledImage, PrepareOptions, prepare};
 use maps3d::reduce::{Contribution, HoleMethod, InverseDepth, Method, ReduceOptions, Stop, reduce};
 use maps3d::triangulate::{FrontierSquares, Occlusion, label};
 use maps3d::view::join;
-use sensing::{Camera, DepthImage};
-
-mod room;
+use sensing::DepthImage;
+use worlds::DepthRoom;
 
 /// The synthetic room, or a frame of floats.
 fn frame() -> FilledImage {
-    let camera = Camera::new(576.0, 578.0, 319.5, 239.5);
-    let depths_m = match std::env::var_os("DRIFTLAB_DEPTH").map(std::fs::read) {
-        Some(Ok(bytes)) => {
-            bytes.as_chunks::<4>().0.iter().map(|&four| f32::from_le_bytes(four)).collect()
-        }
-        _ => room::room(&camera),
-    };
-    let image = DepthImage::new(640, camera, depths_m);
+    let mut image = DepthRoom::default().image();
+    if let Some(Ok(bytes)) = std::env::var_os("DRIFTLAB_DEPTH").map(std::fs::read) {
+        let floats = bytes.as_chunks::<4>().0.iter().map(|&four| f32::from_le_bytes(four));
+        image = DepthImage::new(640, image.camera, floats.collect());
+    }
     prepare(&image, &PrepareOptions::default()).expect("640 x 480")
 }
 

@@ -5,8 +5,8 @@
 //! ```
 //!
 //! A frame is 640 x 480 little-endian floats, metres, 0 where nothing was measured; without one, a
-//! synthetic room is made. Time is that of the processor, not of the clock on the wall. Memory is what
-//! the process held at most above what it held with the frame read. With `--out`, each mesh is written
+//! synthetic room is made. Time is that of the processor, not of the clock on the wall. Memory is the
+//! most that the process ever held, itself and the frame included: give it one method by name in `ONLY`. With `--out`, each mesh is written
 //! as OFF, for others to judge.
 
 use std::fmt::Write as _;
@@ -18,9 +18,7 @@ use maps3d::reduce::{Contribution, HoleMethod, InverseDepth, Method, ReduceOptio
 use maps3d::triangulate::{FrontierSquares, ImageMesh, Occlusion, label};
 use maps3d::view::join;
 use sensing::{Camera, DepthImage};
-
-#[path = "../benches/room/mod.rs"]
-mod room;
+use worlds::DepthRoom;
 
 const SIZES: [usize; 5] = [10_306, 2_060, 684, 113, 10];
 
@@ -65,9 +63,6 @@ fn frame(name: &str, image: &DepthImage, out: Option<&Path>) {
     let only = std::env::var("ONLY").unwrap_or_default();
     for (method_name, method) in methods().into_iter().filter(|(n, _)| n.contains(&only)) {
         for vertices in SIZES {
-            // The peak is counted from here on.
-            let _ = std::fs::write("/proc/self/clear_refs", "5");
-            let held = told_bytes("VmRSS");
             let started = cpu_secs();
             let filled = prepare(image, &PrepareOptions::default()).expect("640 x 480");
             let squares = FrontierSquares::of(&filled, Some(&Occlusion::default()));
@@ -78,7 +73,7 @@ fn frame(name: &str, image: &DepthImage, out: Option<&Path>) {
             let labels = label(&mesh, &squares, 0.0);
             join(&mesh, &labels, filled.camera(), false).expect("labels fit");
             let joined = cpu_secs();
-            let bytes = (told_bytes("VmHWM") - held) / image.depths_m.len() as f64;
+            let bytes = told_bytes("VmHWM:") / image.depths_m.len() as f64;
             let quality = measure(&filled, &mesh);
             let (plane, ray) = (&quality.plane, &quality.ray);
             #[expect(clippy::print_stdout, reason = "a program that tells")]
@@ -124,8 +119,7 @@ fn main() {
         frames.push((name.unwrap_or_default(), image));
     }
     if frames.is_empty() {
-        let camera = Camera::new(576.0, 578.0, 319.5, 239.5);
-        frames.push(("room".to_owned(), DepthImage::new(640, camera, room::room(&camera))));
+        frames.push(("room".to_owned(), DepthRoom::default().image()));
     }
     for (name, image) in frames {
         frame(&name, &image, out.as_deref());

@@ -1,6 +1,7 @@
 #![doc = include_str!("../README.md")]
 
 mod cells;
+mod depth_room;
 mod error;
 pub mod generate;
 pub mod paper;
@@ -12,6 +13,7 @@ pub mod thesis;
 mod world;
 
 pub use cells::CellMap;
+pub use depth_room::DepthRoom;
 pub use error::WorldError;
 pub use robot::{
     DriveParams, OdometryParams, PlaceParams, RobotParams, SensorParams, SimRobot, Tally, View,

@@ -3,13 +3,10 @@
 use std::path::Path;
 
 use serde::Deserialize;
-use toml::Spanned;
 use toml::de::DeTable;
 
 use super::ConfigError;
-use super::document::spans;
-use super::explain::explained;
-use super::source::{Place, Sources};
+use super::typed::Typed;
 
 /// A sweep; one table says of what.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -99,26 +96,11 @@ impl Sweep {
     /// # Errors
     /// As there.
     pub fn from_text(path: &Path, text: &str) -> Result<Self, ConfigError> {
-        let mut sources = Sources::default();
-        let base = sources.add_file(path, text.to_owned());
-        let none = std::collections::BTreeMap::new();
-        let parsed = DeTable::parse(text);
-        let parsed = parsed.map_err(|error| explained(&error, base, &sources, &none))?;
-        let root = parsed.span();
-        let document = parsed.into_inner();
-        let spans = spans(&document);
-        let parser = toml::de::Deserializer::from(Spanned::new(root, document));
-        let sweep =
-            Self::deserialize(parser).map_err(|error| explained(&error, base, &sources, &spans))?;
-        match sweep.fault() {
-            None => Ok(sweep),
+        let typed = Typed::<Self>::from_text(path, text)?;
+        match typed.value.fault() {
+            None => Ok(typed.value),
             Some((key, found, expected)) => {
-                let path_of = format!("graph.outliers.{key}");
-                let place = spans
-                    .get(&path_of)
-                    .map_or_else(|| Place::file(path), |at| sources.place(at.value.clone()));
-                let found = format!("{found} for `{path_of}`");
-                Err(ConfigError::Value { place, found, expected })
+                Err(typed.refused(&format!("graph.outliers.{key}"), &found, expected))
             }
         }
     }

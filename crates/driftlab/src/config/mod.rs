@@ -15,6 +15,8 @@
 //! | `explain`, `error` | the messages |
 //! | `axes` | what a sweep of an experiment varies |
 //! | `graph_sweep` | the config of a sweep over pose graphs |
+//! | `ladder` | the config of a ladder of reductions of one depth image |
+//! | `typed` | a text read as a type that is no experiment |
 //! | `show` | resolved config with origins, annotated defaults |
 
 mod axes;
@@ -25,6 +27,7 @@ mod experiment;
 mod explain;
 mod generators;
 mod graph_sweep;
+mod ladder;
 mod load;
 mod maps;
 mod planner;
@@ -36,6 +39,7 @@ mod source;
 #[cfg(test)]
 mod tests;
 mod to_params;
+mod typed;
 mod world;
 mod world_file;
 
@@ -44,6 +48,7 @@ pub use error::ConfigError;
 pub use experiment::{Config, Start};
 pub use generators::{CavesWorld, CorridorWorld, MazeWorld, Pillar, PillarsWorld, RoomsWorld};
 pub use graph_sweep::{GraphSweep, OutlierSweep, Sweep, SyntheticGraph, is_graph_sweep};
+pub use ladder::{Ladder, LadderDepth, LadderRoom, Rungs};
 pub use load::{Loaded, Overrides};
 pub use maps::{
     ActiveAreaMap, CorrectedPolygonsMap, ExtendedMap, GridCorrectedMap, GridMap, Maps, Occlusion,

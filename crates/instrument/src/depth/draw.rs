@@ -2,7 +2,10 @@
 
 use maps3d::image::FilledImage;
 use maps3d::triangulate::{FrontierSquares, ImageMesh};
-use rerun::{Color, DepthImage, LineStrips2D, Mesh3D, Points2D, RecordingStream, TriangleIndices};
+use rerun::{
+    Color, DepthImage, LineStrips2D, LineStrips3D, Mesh3D, Points2D, RecordingStream,
+    TriangleIndices,
+};
 use solid::{Label, Polyhedron};
 
 use crate::InstrumentError;
@@ -84,22 +87,42 @@ pub(super) fn edges(
     stream.log(path, &lines).map_err(refused(path))
 }
 
-/// Faces of one colour.
+/// Faces of one colour, each with its own corners, so that light shows its slope; of a mesh too large
+/// for that, with shared corners and their mean slopes.
 fn faces(
     stream: &RecordingStream,
     path: &str,
-    points: &[[f32; 3]],
-    faces: impl Iterator<Item = [u32; 3]>,
+    points: &[solid::Point3],
+    faces: &[[u32; 3]],
     colour: Rgba,
 ) -> Result<(), InstrumentError> {
-    let faces: Vec<TriangleIndices> =
-        faces.map(|[a, b, c]| TriangleIndices::from([a, b, c])).collect();
+    const MOST: usize = 40_000;
     if faces.is_empty() {
         return stream.log(path, &rerun::Clear::flat()).map_err(refused(path));
     }
-    let mesh = Mesh3D::new(points.iter().copied())
-        .with_triangle_indices(faces)
-        .with_albedo_factor(rerun::datatypes::Rgba32(colour));
+    let normal_of = |&[a, b, c]: &[u32; 3]| {
+        let [a, b, c] = [a, b, c].map(|vertex| points[vertex as usize]);
+        (b - a).cross(&(c - a))
+    };
+    let unit =
+        |normal: solid::Vector3| short(&normal.try_normalize(0.0).unwrap_or_default().into());
+    let mesh = if faces.len() <= MOST {
+        let corners = faces.iter().flatten().map(|&vertex| short(&points[vertex as usize]));
+        let normals = faces.iter().flat_map(|face| [unit(normal_of(face)); 3]);
+        Mesh3D::new(corners).with_vertex_normals(normals)
+    } else {
+        let mut normals = vec![solid::Vector3::zeros(); points.len()];
+        for face in faces {
+            for &vertex in face {
+                normals[vertex as usize] += normal_of(face);
+            }
+        }
+        let indices = faces.iter().map(|&[a, b, c]| TriangleIndices::from([a, b, c]));
+        Mesh3D::new(points.iter().map(short))
+            .with_vertex_normals(normals.into_iter().map(unit))
+            .with_triangle_indices(indices)
+    };
+    let mesh = mesh.with_albedo_factor(rerun::datatypes::Rgba32(colour));
     stream.log(path, &mesh).map_err(refused(path))
 }
 
@@ -108,28 +131,37 @@ fn short(p: &solid::Point3) -> [f32; 3] {
     [p.x as f32, p.y as f32, p.z as f32]
 }
 
-/// The lifted surface of a mesh, not labelled yet.
+/// The lifted surface of a mesh, frontier apart from obstacles.
 pub(super) fn surface(
     stream: &RecordingStream,
     path: &str,
-    image: &FilledImage,
-    mesh: &ImageMesh,
+    points: &[solid::Point3],
+    triangles: &[[u32; 3]],
+    labels: &[Label],
 ) -> Result<(), InstrumentError> {
-    let points: Vec<[f32; 3]> = mesh.points_in_camera(image.camera()).iter().map(short).collect();
-    faces(stream, path, &points, mesh.triangles.iter().copied(), OBSTACLE)
+    for (label, colour) in [(Label::Obstacle, OBSTACLE), (Label::Frontier, FRONTIER)] {
+        let of_label = triangles.iter().zip(labels).filter(|(_, is)| **is == label);
+        let of_label: Vec<[u32; 3]> = of_label.map(|(face, _)| *face).collect();
+        faces(stream, &format!("{path}/{label}"), points, &of_label, colour)?;
+    }
+    Ok(())
 }
 
-/// The polyhedron, frontier apart from obstacles.
-pub(super) fn polyhedron(
+/// The edges that lead to the camera, where the polyhedron is closed: its walls, all frontier, would
+/// hide what is within.
+pub(super) fn walls(
     stream: &RecordingStream,
     path: &str,
     polyhedron: &Polyhedron,
 ) -> Result<(), InstrumentError> {
-    let points: Vec<[f32; 3]> = polyhedron.vertices().iter().map(short).collect();
-    for (label, colour) in [(Label::Obstacle, OBSTACLE), (Label::Frontier, FRONTIER)] {
-        let of_label = polyhedron.faces().iter().zip(polyhedron.labels());
-        let of_label = of_label.filter(|(_, is)| **is == label).map(|(face, _)| *face);
-        faces(stream, &format!("{path}/{label}"), &points, of_label, colour)?;
-    }
-    Ok(())
+    let vertices = polyhedron.vertices();
+    let origin = vertices.iter().position(|vertex| vertex.coords.norm_squared() == 0.0);
+    let Some(origin) = origin.map(|at| at as u32) else { return Ok(()) };
+    let at_origin = polyhedron.faces().iter().filter(|face| face.contains(&origin));
+    let edges = at_origin.flat_map(|face| face.iter().filter(|&&vertex| vertex != origin).take(1));
+    let strips = edges.map(|&vertex| [[0.0; 3], short(&vertices[vertex as usize])]);
+    let lines = LineStrips3D::new(strips)
+        .with_colors([Color::from_u32(FRONTIER)])
+        .with_radii([rerun::Radius::new_ui_points(0.5)]);
+    stream.log(format!("{path}/walls"), &lines).map_err(refused(path))
 }

@@ -1,24 +1,19 @@
 //! The listener of the way from a depth image to a polyhedron.
 
+use std::fmt::Arguments;
 use std::path::PathBuf;
-use std::sync::Arc;
 
 use maps3d::DepthEvent;
 use maps3d::image::FilledImage;
 use maps3d::quality::measure;
-use maps3d::triangulate::ImageMesh;
+use maps3d::triangulate::{FrontierSquares, ImageMesh, label};
 use probe::Probe;
-use rerun::external::arrow::array::StringArray;
-use rerun::external::re_sdk_types::SerializedComponentBatch;
-use rerun::{
-    AsComponents as _, RecordingStream, RecordingStreamBuilder, Scalars, SeriesLines, TextDocument,
-    TextLog,
-};
 
 use super::{draw, page};
-use crate::columns::{Rgba, VARIANT, fixed, rgb};
-use crate::recording::{ABOUT, METRICS};
-use crate::{InstrumentError, layout};
+use crate::columns::fixed;
+use crate::recording::RESULT;
+use crate::stage::Stage;
+use crate::{InstrumentError, layout, palette};
 
 /// The names of the events on the way from a depth image to a polyhedron.
 pub const DEPTH_EVENTS: &[&str] = DepthEvent::VARIANTS;
@@ -30,8 +25,10 @@ pub struct DepthRecordingOptions {
     pub path: PathBuf,
     /// The name of the image.
     pub name: String,
-    /// The reduction, in words.
-    pub method: String,
+    /// The reductions that will be shown side by side, in words.
+    pub methods: Vec<String>,
+    /// The largest number of vertices at which a mesh is shown: so far the plots reach at first.
+    pub largest: usize,
 }
 
 /// The recording of one image, or of several reductions of it in a row: a probe for
@@ -40,104 +37,95 @@ pub struct DepthRecordingOptions {
 /// The timeline `vertices` counts the vertices of the mesh. Single removals and insertions are told
 /// ever less often the more vertices there are: one in every hundredth of the count.
 pub struct DepthRecording {
-    stream: RecordingStream,
+    stage: Stage,
     options: DepthRecordingOptions,
     event: i64,
-    /// Under what the meshes are drawn.
-    root: String,
+    /// The reduction that is going on, as a place in the options' methods.
+    method: usize,
+    squares: Option<FrontierSquares>,
+    /// Whether the image is drawn already, and the layout sent.
+    drawn: bool,
     /// Vertices when a removal or insertion was told last.
     told: Option<usize>,
     vertices: usize,
     refusal: Option<InstrumentError>,
 }
 
-/// Names, titles and colours of the plotted numbers.
-const PLOTS: [(&str, &str, Rgba); 4] = [
-    ("rms_m", "root mean square", rgb(60, 130, 220)),
-    ("p95_m", "95 %", rgb(220, 60, 40)),
-    ("contribution_m", "contribution of the removed vertex", rgb(150, 90, 200)),
-    ("error_m", "distance of the inserted pixel", rgb(40, 160, 90)),
-];
-
 impl DepthRecording {
-    /// Creates the file with its layout and text page.
+    /// Creates the file with its text page.
     ///
     /// # Errors
     /// [`InstrumentError::Write`] where the file cannot be created.
     pub fn create(options: DepthRecordingOptions) -> Result<Self, InstrumentError> {
-        let refuse = |reason: String| InstrumentError::Write { path: options.path.clone(), reason };
-        let stream = RecordingStreamBuilder::new("driftlab")
-            .recording_name(options.name.clone())
-            .save(&options.path)
-            .map_err(|e| refuse(e.to_string()))?;
-        stream.set_log_time_enabled(false);
-        stream.set_log_tick_enabled(false);
-        layout::send_depth(&stream).map_err(refuse)?;
-        let about = TextDocument::from_markdown(page::about(&options.name, &options.method));
-        fixed(&stream, &ABOUT.into(), &about)?;
-        fixed(&stream, &"view".into(), &rerun::ViewCoordinates::RIGHT_HAND_Y_DOWN())?;
-        for (name, title, colour) in PLOTS {
-            let look = SeriesLines::new()
-                .with_names([title])
-                .with_colors([rerun::Color::from_u32(colour)])
-                .with_widths([2.0]);
-            fixed(&stream, &format!("plots/{name}").as_str().into(), &look)?;
+        let stage = Stage::create(&options.path, &options.name)?;
+        stage.about(page::about(&options.name, &options.methods))?;
+        for view in ["view", "image"] {
+            fixed(&stage.stream, &view.into(), &rerun::ViewCoordinates::RIGHT_HAND_Y_DOWN())?;
         }
-        let root = "view".to_owned();
-        Ok(Self { stream, options, event: 0, root, told: None, vertices: 0, refusal: None })
+        for (at, method) in options.methods.iter().enumerate() {
+            let colour = palette::MAPS[at % palette::MAPS.len()];
+            let titles = layout::DEPTH_PLOTS.map(|(name, title)| {
+                (format!("{name}/{}", entity_of(method)), format!("{method}: {title}"))
+            });
+            stage.looks(
+                titles.iter().map(|(name, title)| (name.as_str(), title.as_str(), colour)),
+            )?;
+        }
+        Ok(Self {
+            stage,
+            options,
+            event: 0,
+            method: 0,
+            squares: None,
+            drawn: false,
+            told: None,
+            vertices: 0,
+            refusal: None,
+        })
     }
 
-    /// Draws what follows under `view/name`: several methods in one recording, side by side in the
-    /// tree.
-    pub fn begin(&mut self, name: &str) {
-        self.root = format!("view/{name}");
+    /// What follows belongs to this reduction, counted in the options' methods: it is drawn in a view
+    /// of its own.
+    pub fn begin(&mut self, method: usize) {
+        self.method = method;
         self.told = None;
     }
 
-    /// Ends the recording; `metrics` is kept as JSON.
+    /// Ends the recording with a result (Markdown); `metrics` is kept as JSON.
     ///
     /// # Errors
     /// The first refusal of anything that was to be recorded.
-    pub fn finish(mut self, metrics: &serde_json::Value) -> Result<(), InstrumentError> {
+    pub fn finish(
+        mut self,
+        result: String,
+        metrics: &serde_json::Value,
+    ) -> Result<(), InstrumentError> {
         if let Some(refusal) = self.refusal.take() {
             return Err(refusal);
         }
-        let json = TextDocument::new(metrics.to_string()).with_media_type("application/json");
-        fixed(&self.stream, &METRICS.into(), &json)?;
-        self.stream.flush_blocking().map_err(|e| InstrumentError::Write {
-            path: self.options.path.clone(),
-            reason: e.to_string(),
-        })?;
-        self.stream.disconnect();
-        Ok(())
+        self.stage.text(RESULT, result)?;
+        self.stage.metrics(metrics)?;
+        self.stage.end()
     }
 
     fn at(&mut self, vertices: usize) {
         self.vertices = vertices;
-        self.stream.set_time_sequence("vertices", vertices as i64);
-        self.stream.set_time_sequence("event", self.event);
+        self.stage.stream.set_time_sequence("vertices", vertices as i64);
+        self.stage.stream.set_time_sequence("event", self.event);
         self.event += 1;
     }
 
-    /// Logs an event: its name as data, and one line of text.
-    fn say(&self, variant: &'static str, line: &str) -> Result<(), InstrumentError> {
-        let path = "events/depth";
-        let mut batches = TextLog::new(format!("{variant}: {line}")).as_serialized_batches();
-        let name = Arc::new(StringArray::from(vec![variant]));
-        batches.push(SerializedComponentBatch::new(name, VARIANT.clone()));
-        self.stream.log_serialized_batches(path, false, batches).map_err(|error| {
-            InstrumentError::Rows { entity: path.to_owned(), reason: error.to_string() }
-        })
+    /// The name of the reduction, as it stands in paths.
+    fn name(&self) -> String {
+        self.options.methods.get(self.method).map_or_else(String::new, |name| entity_of(name))
+    }
+
+    fn say(&self, variant: &'static str, line: Arguments<'_>) -> Result<(), InstrumentError> {
+        self.stage.say(&format!("events/{}", self.name()), variant, line)
     }
 
     fn plot(&self, name: &str, value: f64) -> Result<(), InstrumentError> {
-        if !value.is_finite() {
-            return Ok(());
-        }
-        let entity = format!("plots/{name}");
-        self.stream.log(entity.as_str(), &Scalars::single(value)).map_err(|error| {
-            InstrumentError::Rows { entity: entity.clone(), reason: error.to_string() }
-        })
+        self.stage.plot(&format!("{name}/{}", self.name()), value)
     }
 
     /// Whether a single step at this number of vertices is told.
@@ -153,8 +141,32 @@ impl DepthRecording {
         let quality = measure(image, mesh);
         self.plot("rms_m", quality.plane.rms_m)?;
         self.plot("p95_m", quality.plane.p95_m)?;
-        draw::edges(&self.stream, "image/edges", mesh)?;
-        draw::surface(&self.stream, &format!("{}/surface", self.root), image, mesh)
+        let name = self.name();
+        draw::edges(&self.stage.stream, &format!("image/{name}/edges"), mesh)?;
+        let Some(squares) = &self.squares else { return Ok(()) };
+        let points = mesh.points_in_camera(image.camera());
+        let labels = label(mesh, squares, 0.0);
+        let path = format!("view/{name}/surface");
+        draw::surface(&self.stage.stream, &path, &points, &mesh.triangles, &labels)
+    }
+
+    fn prepared(&mut self, image: &FilledImage) -> Result<(), InstrumentError> {
+        if std::mem::replace(&mut self.drawn, true) {
+            return Ok(());
+        }
+        let mut depths: Vec<f32> = image.depths_m().to_vec();
+        let middle = depths.len() / 2;
+        let (_, middle_m, _) = depths.select_nth_unstable_by(middle, f32::total_cmp);
+        let names: Vec<(String, String)> =
+            self.options.methods.iter().map(|m| (m.clone(), entity_of(m))).collect();
+        let look = layout::DepthLook {
+            methods: names,
+            middle_m: *middle_m,
+            largest: self.options.largest,
+        };
+        layout::send_depth(&self.stage.stream, &look)
+            .map_err(|reason| self.stage.refused(reason))?;
+        draw::image(&self.stage.stream, "image/depth", image)
     }
 
     fn record(&mut self, event: DepthEvent<'_>) -> Result<(), InstrumentError> {
@@ -162,16 +174,19 @@ impl DepthRecording {
         match event {
             DepthEvent::Prepared { image } => {
                 self.at(image.pixels());
+                self.prepared(image)?;
                 let (columns, rows) = (image.columns(), image.rows());
                 let missing = image.missing_count();
-                draw::image(&self.stream, "image/depth", image)?;
-                self.say(variant, &format!("{columns} x {rows} pixels, {missing} missing"))
+                self.say(variant, format_args!("{columns} x {rows} pixels, {missing} missing"))
             }
             DepthEvent::Triangulated { image, squares } => {
                 self.at(image.pixels());
-                draw::frontier(&self.stream, "image/frontier", squares)?;
+                if self.squares.is_none() {
+                    draw::frontier(&self.stage.stream, "image/frontier", squares)?;
+                }
+                self.squares = Some(squares.clone());
                 let faces = 2 * squares.columns() * squares.rows();
-                self.say(variant, &format!("{faces} faces of the grid"))
+                self.say(variant, format_args!("{faces} faces of the grid"))
             }
             DepthEvent::Removed { pixel, contribution_m, hole, vertices, .. } => {
                 if !self.tells(vertices) {
@@ -180,8 +195,10 @@ impl DepthRecording {
                 self.at(vertices);
                 self.plot("contribution_m", contribution_m)?;
                 let sides = hole.len();
-                let line = format!("{pixel:?}, {contribution_m:.5} m, a hole of {sides} sides");
-                self.say(variant, &line)
+                self.say(
+                    variant,
+                    format_args!("{pixel:?}, {contribution_m:.5} m, a hole of {sides} sides"),
+                )
             }
             DepthEvent::Inserted { pixel, error_m, vertices } => {
                 if !self.tells(vertices) {
@@ -189,43 +206,53 @@ impl DepthRecording {
                 }
                 self.at(vertices);
                 self.plot("error_m", error_m)?;
-                self.say(variant, &format!("{pixel:?}, {error_m:.5} m off"))
+                self.say(variant, format_args!("{pixel:?}, {error_m:.5} m off"))
             }
             DepthEvent::Reached { image, mesh } => {
                 self.at(mesh.pixels.len());
                 self.mesh(image, mesh)?;
-                self.say(variant, &counts(mesh))
+                self.say(variant, format_args!("{}", counts(mesh)))
+            }
+            DepthEvent::Thinned { mesh } => {
+                self.at(mesh.pixels.len());
+                self.say(variant, format_args!("{}", counts(mesh)))
             }
             DepthEvent::Flipped { round, sides } => {
                 self.at(self.vertices);
-                self.say(variant, &format!("round {round}: {sides} sides"))
+                self.say(variant, format_args!("round {round}: {sides} sides"))
             }
             DepthEvent::Fitted { mesh } => {
                 self.at(self.vertices);
-                self.say(variant, &counts(mesh))
+                self.say(variant, format_args!("{}", counts(mesh)))
             }
             DepthEvent::Withheld { mesh, vertices } => {
                 self.at(mesh.pixels.len());
-                self.say(variant, &format!("{vertices} vertices came nearer"))
+                self.say(variant, format_args!("{vertices} vertices came nearer"))
             }
             DepthEvent::Reduced { image, mesh } => {
                 self.at(mesh.pixels.len());
                 self.mesh(image, mesh)?;
-                self.say(variant, &counts(mesh))
+                self.say(variant, format_args!("{}", counts(mesh)))
             }
             DepthEvent::Labelled { mesh, labels } => {
                 self.at(mesh.pixels.len());
                 let frontier =
                     labels.iter().filter(|label| **label == solid::Label::Frontier).count();
-                self.say(variant, &format!("{frontier} of {} faces are frontier", labels.len()))
+                self.say(variant, format_args!("{frontier} of {} faces are frontier", labels.len()))
             }
             DepthEvent::Joined { polyhedron } => {
                 self.at(self.vertices);
-                draw::polyhedron(&self.stream, &format!("{}/polyhedron", self.root), polyhedron)?;
-                self.say(variant, &format!("{} faces", polyhedron.faces().len()))
+                let path = format!("view/{}", self.name());
+                draw::walls(&self.stage.stream, &path, polyhedron)?;
+                self.say(variant, format_args!("{} faces", polyhedron.faces().len()))
             }
         }
     }
+}
+
+/// A name as it may stand in a path.
+fn entity_of(method: &str) -> String {
+    method.replace(|c: char| !c.is_ascii_alphanumeric(), "_")
 }
 
 fn counts(mesh: &ImageMesh) -> String {

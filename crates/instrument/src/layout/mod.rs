@@ -8,7 +8,7 @@ mod solid;
 mod text;
 mod views;
 
-pub(crate) use depth::send_depth;
+pub(crate) use depth::{DEPTH_PLOTS, DepthLook, send_depth};
 pub(crate) use graph::{GraphLook, send_graph};
 pub(crate) use solid::send_solid;
 pub(crate) use text::{about, result};

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use clap::{Args, Subcommand, ValueEnum};
 
-use super::depth_args::DepthArgs;
+use super::depth_args::{DepthArgs, DepthFileArgs};
 
 #[derive(Debug, Args)]
 pub(in crate::command) struct MeshArgs {
@@ -66,6 +66,19 @@ pub(super) enum MeshCommand {
             driftlab mesh polyhedron depth.png --vertices 113 --ladder 10306,2060,684 --record a.rrd"
     )]
     Polyhedron(PolyhedronArgs),
+    /// Reduce one depth image further and further by several methods, in one recording
+    #[command(
+        long_about = "Reduce one depth image further and further by several methods, in one recording.\n\n\
+            The config says how the image is made ready, which methods reduce it, and at which numbers \
+            of vertices each is shown and measured. Without an image, a made-up room is looked at; what \
+            is wrong with its camera stands in the config too. In the recording, drag the timeline \
+            `vertices`.",
+        after_help = "Examples:\n  \
+            driftlab mesh ladder configs/depth/room.toml\n  \
+            driftlab mesh ladder configs/depth/figure_6_2.toml depth.png --camera 525,525,319.5,239.5\n  \
+            driftlab mesh ladder configs/depth/room.toml --record /tmp/room.rrd --json"
+    )]
+    Ladder(LadderArgs),
     /// Take faces out of a mesh, within an error
     #[command(
         long_about = "Take faces out of a mesh, within an error.\n\n\
@@ -77,6 +90,22 @@ pub(super) enum MeshCommand {
             driftlab mesh reduce scan.stl --error 0.5 --faces 2000 --record reduce.rrd"
     )]
     Reduce(ReduceArgs),
+}
+
+#[derive(Debug, Args)]
+pub(super) struct LadderArgs {
+    /// The config: a TOML file
+    pub(super) config: PathBuf,
+    /// The depth image, as of `polyhedron`; without one, the config's room
+    pub(super) depth: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) file: DepthFileArgs,
+    /// Where the recording goes [default: recordings/ and the config's name]
+    #[arg(long, value_name = "FILE.rrd")]
+    pub(super) record: Option<PathBuf>,
+    /// Replace files that are there already
+    #[arg(long)]
+    pub(super) force: bool,
 }
 
 #[derive(Debug, Args)]

@@ -6,7 +6,7 @@ use std::str::FromStr;
 use clap::{Args, ValueEnum};
 use maps3d::ViewOptions;
 use maps3d::image::PrepareOptions;
-use maps3d::reduce::{Contribution, HoleMethod, InverseDepth, Method, ReduceOptions, Stop};
+use maps3d::reduce::{HoleMethod, InverseDepth, Method, ReduceOptions, Stop};
 use maps3d::triangulate::Occlusion;
 
 /// What happens to points of a cloud that share a place.
@@ -36,8 +36,13 @@ pub(super) enum MethodName {
 impl MethodName {
     /// The name, as it is typed.
     pub fn name(self) -> String {
-        self.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
+        typed(self)
     }
+}
+
+/// A value's name, as it is typed.
+fn typed(value: impl ValueEnum) -> String {
+    value.to_possible_value().map_or_else(String::new, |value| value.get_name().to_owned())
 }
 
 /// How holes are triangulated.
@@ -53,10 +58,9 @@ pub(super) enum HoleName {
     ConstrainedDelaunay,
 }
 
+/// How a depth image's file is to be taken.
 #[derive(Debug, Args)]
-pub(in crate::command) struct DepthArgs {
-    /// The depth image: PNG of 16 bits, PGM, TIFF, PCD, PLY, or floats without a header as .raw
-    pub(super) depth: PathBuf,
+pub(in crate::command) struct DepthFileArgs {
     /// Focal lengths and centre of the camera, pixels [default: a Kinect's; of clouds, fitted]
     #[arg(
         long,
@@ -74,6 +78,14 @@ pub(in crate::command) struct DepthArgs {
     /// What happens to points of a cloud that share a place
     #[arg(long, value_enum, default_value = "refuse")]
     pub(super) duplicates: DuplicatesName,
+}
+
+#[derive(Debug, Args)]
+pub(in crate::command) struct DepthArgs {
+    /// The depth image: PNG of 16 bits, PGM, TIFF, PCD, PLY, or floats without a header as .raw
+    pub(super) depth: PathBuf,
+    #[command(flatten)]
+    pub(super) file: DepthFileArgs,
     /// Pixels cut off on each side
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(super) crop: usize,
@@ -123,20 +135,10 @@ fn numbers<T: FromStr, const N: usize>(text: &str) -> Result<[T; N], String> {
 impl DepthArgs {
     /// The options of all stages.
     pub fn options(&self) -> ViewOptions {
-        let hole = match self.hole {
-            HoleName::EarClipping => HoleMethod::EarClipping,
-            HoleName::OptimalEdgeLength => HoleMethod::OptimalEdgeLength,
-            HoleName::Monotone => HoleMethod::Monotone,
-            HoleName::ConstrainedDelaunay => HoleMethod::ConstrainedDelaunay,
-        };
-        let removal = |contribution| Method::Removal { contribution, hole };
-        let method = match self.reduce {
-            MethodName::Centroid => removal(Contribution::Centroid),
-            MethodName::LeastSquares => removal(Contribution::LeastSquares),
-            MethodName::LeastSquaresVertical => removal(Contribution::LeastSquaresVertical),
-            MethodName::Quadric => Method::Quadric,
-            MethodName::InverseDepth => Method::InverseDepth(InverseDepth::default()),
-        };
+        let hole = HoleMethod::named(&typed(self.hole)).unwrap_or_default();
+        // Every name of the list is one of the crate's.
+        let method = Method::named(&self.reduce.name(), hole)
+            .unwrap_or(Method::InverseDepth(InverseDepth::default()));
         let stop = match (self.vertices, self.error) {
             (Some(count), _) => Some(Stop::Vertices(count)),
             (None, Some(error_m)) => Some(Stop::Error(error_m)),
@@ -156,6 +158,22 @@ impl DepthArgs {
                 ..ReduceOptions::new(method, stop)
             }),
             open: self.open,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_name_is_known_below() {
+        for name in MethodName::value_variants() {
+            assert!(Method::named(&name.name(), HoleMethod::default()).is_some(), "{name:?}");
+        }
+        assert_eq!(MethodName::value_variants().len(), Method::NAMES.len());
+        for name in HoleName::value_variants() {
+            assert!(HoleMethod::named(&typed(*name)).is_some(), "{name:?}");
         }
     }
 }

@@ -10,15 +10,18 @@ use sensing::{Camera, DepthImage};
 
 use super::super::failure::Failure;
 use super::super::out::Out;
-use super::depth_args::{DepthArgs, DuplicatesName};
+use super::depth_args::{DepthFileArgs, DuplicatesName};
 
 /// The focal length of the first Kinect, pixels, for an image of 640 columns.
 const KINECT_FOCAL_PX: f64 = 525.0;
 
 /// Reads the file; also how long it took.
-pub(super) fn depth(args: &DepthArgs, out: &Out) -> Result<(DepthImage, f64), Failure> {
+pub(super) fn depth(
+    path: &Path,
+    args: &DepthFileArgs,
+    out: &Out,
+) -> Result<(DepthImage, f64), Failure> {
     let start = Instant::now();
-    let path = &args.depth;
     let bytes = std::fs::read(path).map_err(|error| {
         Failure::Input(anyhow!("{}: {error}; expected a depth image", path.display()))
     })?;

@@ -9,6 +9,7 @@ mod depth_args;
 mod depth_input;
 mod info;
 mod input;
+mod ladder;
 mod output;
 mod polyhedron;
 mod reduce;
@@ -26,6 +27,7 @@ pub(super) fn mesh(args: &MeshArgs, out: &Out) -> Result<(), Failure> {
         MeshCommand::Boolean(args) => boolean::boolean(args, out),
         MeshCommand::Reduce(args) => reduce::reduce(args, out),
         MeshCommand::Info(args) => info::info(args, out),
+        MeshCommand::Ladder(args) => ladder::ladder(args, out),
         MeshCommand::Polyhedron(args) => polyhedron::polyhedron(args, out),
         MeshCommand::Tetrahedralize(args) => tetrahedralize::tetrahedralize(args, out),
     }

@@ -26,7 +26,7 @@ pub(super) fn polyhedron(args: &PolyhedronArgs, out: &Out) -> Result<(), Failure
     }
     let depth = &args.depth;
     let path = depth.depth.display().to_string();
-    let (image, secs_read) = depth_input::depth(depth, out)?;
+    let (image, secs_read) = depth_input::depth(&depth.depth, &depth.file, out)?;
     let refused = |error: Maps3dError| Failure::Input(anyhow!("{path}: {error}"));
     let options = depth.options();
     let mut clock = Clock::default();
@@ -47,17 +47,6 @@ pub(super) fn polyhedron(args: &PolyhedronArgs, out: &Out) -> Result<(), Failure
     json["secs_polyhedron"] = joined.into();
     if let Some(target) = &target {
         target.write(&made.polyhedron)?;
-    }
-    if let Some(record) = &args.record {
-        // Once more, and watched: what is written down must not count as time.
-        let recording = DepthRecordingOptions {
-            path: record.clone(),
-            name: depth.depth.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into()),
-            method: depth.reduce.name(),
-        };
-        let mut recording = DepthRecording::create(recording).map_err(Failure::work)?;
-        polyhedron_with(&image, &options, &mut recording).map_err(refused)?;
-        recording.finish(&json).map_err(Failure::work)?;
     }
     let mut rows = vec![(
         "image",
@@ -83,6 +72,20 @@ pub(super) fn polyhedron(args: &PolyhedronArgs, out: &Out) -> Result<(), Failure
              {joined:.4}"
         ),
     ));
+    if let Some(record) = &args.record {
+        // Once more, and watched: what is written down must not count as time.
+        let recording = DepthRecordingOptions {
+            path: record.clone(),
+            name: depth.depth.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into()),
+            methods: vec![depth.reduce.name()],
+            largest: depth.ladder.iter().copied().fold(made.mesh.pixels.len(), usize::max),
+        };
+        let mut recording = DepthRecording::create(recording).map_err(Failure::work)?;
+        polyhedron_with(&image, &options, &mut recording).map_err(refused)?;
+        recording
+            .finish(format!("```text\n{}```\n", listed(&rows)), &json)
+            .map_err(Failure::work)?;
+    }
     out.result(&json, &listed(&rows))
 }
 

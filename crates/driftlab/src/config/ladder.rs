@@ -1,0 +1,198 @@
+//! The config of a ladder: one depth image, reduced further and further by several methods.
+
+use std::path::Path;
+
+use maps3d::reduce::{HoleMethod, Method};
+use serde::Deserialize;
+
+use super::ConfigError;
+use super::typed::Typed;
+
+/// A ladder of reductions.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Ladder {
+    /// What it is called: the recording's name.
+    pub name: String,
+    /// How the image is made ready.
+    #[serde(default)]
+    pub depth: LadderDepth,
+    /// The made-up room that is looked at where no image is given.
+    #[serde(default)]
+    pub room: LadderRoom,
+    /// How it is reduced.
+    pub ladder: Rungs,
+}
+
+/// How the image is made ready.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct LadderDepth {
+    /// Pixels cut off on each side.
+    pub crop: usize,
+    /// Depth at which missing data is placed, metres.
+    pub far_m: f64,
+    /// Whether faces across depth gaps are frontier.
+    pub occlusion: bool,
+}
+
+impl Default for LadderDepth {
+    fn default() -> Self {
+        Self { crop: 0, far_m: 8.0, occlusion: true }
+    }
+}
+
+/// A made-up room with boxes.
+#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields, default)]
+pub struct LadderRoom {
+    /// Columns of the image.
+    pub columns: usize,
+    /// Rows of the image.
+    pub rows: usize,
+    /// The seed of the noise.
+    pub seed: u32,
+    /// Standard deviation of the noise, as a share of the depth.
+    pub noise_share: f64,
+    /// Share of the pixels that see nothing.
+    pub speckle_share: f64,
+    /// Whether a round patch sees nothing either.
+    pub patch: bool,
+}
+
+impl Default for LadderRoom {
+    fn default() -> Self {
+        let room = worlds::DepthRoom::default();
+        Self {
+            columns: room.columns,
+            rows: room.rows,
+            seed: room.seed,
+            noise_share: room.noise_share,
+            speckle_share: room.speckle_share,
+            patch: room.patch,
+        }
+    }
+}
+
+/// Methods, and numbers of vertices.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+#[serde(deny_unknown_fields)]
+pub struct Rungs {
+    /// How vertices are chosen, as `driftlab mesh polyhedron --reduce` names it; shown side by side.
+    pub methods: Vec<String>,
+    /// How holes are triangulated.
+    #[serde(default = "ear_clipping")]
+    pub hole: String,
+    /// Numbers of vertices at which the mesh is shown; none for the full grid alone.
+    pub vertices: Vec<usize>,
+}
+
+fn ear_clipping() -> String {
+    "ear-clipping".to_owned()
+}
+
+impl Ladder {
+    /// Reads and checks a config.
+    ///
+    /// # Errors
+    /// The first thing wrong, with file, line and column.
+    pub fn read(path: &Path) -> Result<Self, ConfigError> {
+        let text = std::fs::read_to_string(path).map_err(|reason| ConfigError::Unreadable {
+            path: path.to_owned(),
+            reason,
+            expected: "the TOML config of a ladder".into(),
+        })?;
+        Self::from_text(path, &text)
+    }
+
+    /// As [`read`](Self::read), from the text of the file.
+    ///
+    /// # Errors
+    /// As there.
+    pub fn from_text(path: &Path, text: &str) -> Result<Self, ConfigError> {
+        let typed = Typed::<Self>::from_text(path, text)?;
+        match typed.value.fault() {
+            None => Ok(typed.value),
+            Some((key, found, expected)) => Err(typed.refused(key, &found, expected)),
+        }
+    }
+
+    /// The methods, in order.
+    pub fn methods(&self) -> Vec<Method> {
+        let hole = HoleMethod::named(&self.ladder.hole).unwrap_or_default();
+        self.ladder.methods.iter().filter_map(|name| Method::named(name, hole)).collect()
+    }
+
+    fn fault(&self) -> Option<(&'static str, String, String)> {
+        let rungs = &self.ladder;
+        let hole = HoleMethod::named(&rungs.hole);
+        if hole.is_none() {
+            let expected = format!("one of {}", HoleMethod::ALL.map(HoleMethod::name).join(", "));
+            return Some(("ladder.hole", format!("{:?}", rungs.hole), expected));
+        }
+        let unknown =
+            rungs.methods.iter().find(|name| Method::named(name, HoleMethod::default()).is_none());
+        if let Some(name) = unknown {
+            let expected = format!("some of {}", Method::NAMES.join(", "));
+            return Some(("ladder.methods", format!("{name:?}"), expected));
+        }
+        if rungs.methods.is_empty() {
+            return Some(("ladder.methods", "an empty list".into(), "at least one method".into()));
+        }
+        if let Some(few) = rungs.vertices.iter().find(|count| **count < 4) {
+            let expected = "numbers from 4, the corners of the image";
+            return Some(("ladder.vertices", few.to_string(), expected.into()));
+        }
+        if self.name.is_empty() || self.name.contains(['/', '\\']) {
+            return Some(("name", format!("{:?}", self.name), "a name without slashes".into()));
+        }
+        let room = &self.room;
+        if !(2..=4096).contains(&room.columns) || !(2..=4096).contains(&room.rows) {
+            let found = format!("{} x {} pixels", room.columns, room.rows);
+            let key = if (2..=4096).contains(&room.columns) { "room.rows" } else { "room.columns" };
+            return Some((key, found, "2 to 4096 each way".into()));
+        }
+        [
+            ("room.noise_share", room.noise_share, 0.0..=0.2),
+            ("room.speckle_share", room.speckle_share, 0.0..=1.0),
+            ("depth.far_m", self.depth.far_m, 0.001..=1e6),
+        ]
+        .into_iter()
+        .find(|(_, value, range)| !range.contains(value))
+        .map(|(key, value, range)| {
+            let expected = format!("a number from {} to {}", range.start(), range.end());
+            (key, value.to_string(), expected)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const GOOD: &str = "name = \"a\"\n[ladder]\nmethods = [\"centroid\"]\nvertices = [9]\n";
+
+    #[test]
+    fn a_ladder_is_read() {
+        let ladder = Ladder::from_text(Path::new("a.toml"), GOOD).expect("a good config");
+        assert_eq!(ladder.methods().len(), 1);
+        assert_eq!(ladder.depth, LadderDepth::default());
+    }
+
+    #[test]
+    fn mistakes_are_told_with_their_line() {
+        for (from, to, words) in [
+            ("vertices", "verties", "a.toml:4:1: found unknown key"),
+            ("centroid", "median", "a.toml:3:11: found \"median\" for `ladder.methods`"),
+            ("[9]", "[9, 3]", "a.toml:4:12: found 3 for `ladder.vertices`"),
+            ("[\"centroid\"]", "[]", "a.toml:3:11: found an empty list"),
+            ("[ladder]", "[room]\nrows = 1\n[ladder]", "a.toml:3:8: found 640 x 1 pixels"),
+            ("[ladder]", "[depth]\nfar_m = nan\n[ladder]", "a.toml:3:9: found NaN"),
+            ("\"a\"", "\"a/b\"", "a.toml:1:8: found \"a/b\""),
+        ] {
+            let text = GOOD.replacen(from, to, 1);
+            let error = Ladder::from_text(Path::new("a.toml"), &text).expect_err(to).to_string();
+            assert!(error.starts_with(words), "{error}");
+        }
+    }
+}
