@@ -36,7 +36,8 @@ pub(super) fn image(
         size,
         rerun::ChannelDatatype::U16,
     );
-    stream.log(path, &picture.with_meter(1000.0)).map_err(refused(path))
+    // At all times: the timeline counts vertices, and the image has them all.
+    stream.log_static(path, &picture.with_meter(1000.0)).map_err(refused(path))
 }
 
 /// A point for each square of pixels that holds frontier, thinned to some thousands.
@@ -56,7 +57,7 @@ pub(super) fn frontier(
     let points = Points2D::new(held.into_iter().step_by(step))
         .with_colors([Color::from_u32(FRONTIER)])
         .with_radii([rerun::Radius::new_ui_points(1.0)]);
-    stream.log(path, &points).map_err(refused(path))
+    stream.log_static(path, &points).map_err(refused(path))
 }
 
 /// The edges of a mesh over the image; none where there would be too many to look at.

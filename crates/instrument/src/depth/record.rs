@@ -59,9 +59,7 @@ impl DepthRecording {
     pub fn create(options: DepthRecordingOptions) -> Result<Self, InstrumentError> {
         let stage = Stage::create(&options.path, &options.name)?;
         stage.about(page::about(&options.name, &options.methods))?;
-        for view in ["view", "image"] {
-            fixed(&stage.stream, &view.into(), &rerun::ViewCoordinates::RIGHT_HAND_Y_DOWN())?;
-        }
+        fixed(&stage.stream, &"view".into(), &rerun::ViewCoordinates::RIGHT_HAND_Y_DOWN())?;
         for (at, method) in options.methods.iter().enumerate() {
             let colour = palette::MAPS[at % palette::MAPS.len()];
             let titles = layout::DEPTH_PLOTS.map(|(name, title)| {
