@@ -115,7 +115,7 @@ where
     steps.sort_unstable_by(|a, b| b.cmp(a));
     // Few vertices are chosen from more of them.
     let count = stop.vertices();
-    let most = count.map(|count| InverseDepth::first_of(count));
+    let most = count.map(InverseDepth::first_of);
     loop {
         grown.measure_changed();
         let vertices = grown.mesh.pixels.len();
