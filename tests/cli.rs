@@ -364,7 +364,8 @@ fn config_shows_origins_defaults_and_schema() {
     assert_eq!(json(&desk.driftlab(&["config", "schema", "--json"])), schema);
 }
 
-/// Every config of an experiment that the repository ships; those in `graph` are sweeps.
+/// Every config of an experiment that the repository ships; those in `graph` are sweeps of graphs, those
+/// in `depth` ladders of a depth image.
 fn shipped() -> Vec<PathBuf> {
     let mut all = Vec::new();
     let mut folders = vec![root().join("configs")];
@@ -372,7 +373,8 @@ fn shipped() -> Vec<PathBuf> {
         for entry in fs::read_dir(folder).expect("a folder") {
             let path = entry.expect("an entry").path();
             if path.is_dir() {
-                folders.extend((!path.ends_with("graph")).then_some(path));
+                let is_other = path.ends_with("graph") || path.ends_with("depth");
+                folders.extend((!is_other).then_some(path));
             } else if path.extension().is_some_and(|extension| extension == "toml") {
                 all.push(path);
             }

@@ -105,8 +105,10 @@ impl Explorer {
             self.place_edges += u64::from(edge.is_some());
             edges.extend(edge);
         }
-        let radius_m = self.params.policy.rapid().step_m;
-        self.rapid.haunts.found(&self.graph, vertex, &edges, radius_m);
+        if self.maps.first().is_some_and(|map| map.has_frontier_by_vertex()) {
+            let radius_m = self.params.policy.rapid().step_m;
+            self.rapid.haunts.found(&self.graph, vertex, &edges, radius_m);
+        }
         for map in &mut self.maps {
             map.edges_added(&self.graph, &edges, &mut *probe);
         }

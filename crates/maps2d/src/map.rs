@@ -146,6 +146,11 @@ pub trait ExplorationMap {
     /// The way to the nearest frontier, or `None` if none is left that can be reached.
     fn route(&mut self, standing: &Standing, clearance_m: f64) -> Option<Route>;
 
+    /// Whether its frontier belongs to vertices, so that [`route_to`](Self::route_to) can leave some out.
+    fn has_frontier_by_vertex(&self) -> bool {
+        false
+    }
+
     /// The way to the nearest frontier of a vertex that `comes_now`, or `None` if there is none.
     ///
     /// A map whose frontier belongs to no vertex leads to the nearest of all.

@@ -227,6 +227,10 @@ impl ExplorationMap for Side {
         self.timed(|map| map.route(standing, clearance_m))
     }
 
+    fn has_frontier_by_vertex(&self) -> bool {
+        self.inner.has_frontier_by_vertex()
+    }
+
     fn route_to(
         &mut self,
         standing: &Standing,

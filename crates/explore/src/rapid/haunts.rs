@@ -15,7 +15,8 @@ const LAST_ACTIONS: u32 = 3_000;
 /// The allowance is doubled so often at most, far more often than it can be reached.
 const MOST_DOUBLINGS: u32 = 12;
 
-/// The neighbourhoods that vertices lie in, and how often the robot has acted in each.
+/// The neighbourhoods that vertices lie in, and how often the robot has acted in each. None are founded,
+/// and all places come now, where a map's frontier does not belong to vertices.
 ///
 /// A squeeze between furniture can keep the robot busy for ever: every look leaves slivers that count,
 /// and going for them yields the next look. Then places elsewhere, where there is ground to gain,
@@ -92,7 +93,9 @@ impl Haunts {
 
     /// Nothing is left elsewhere: every place gets as much again; false where that is over.
     pub fn relent(&mut self) -> bool {
-        let may = self.last_actions < LAST_ACTIONS && self.doubled < MOST_DOUBLINGS;
+        let may = !self.actions.is_empty()
+            && self.last_actions < LAST_ACTIONS
+            && self.doubled < MOST_DOUBLINGS;
         self.doubled += u32::from(may);
         may
     }

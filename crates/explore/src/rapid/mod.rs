@@ -8,7 +8,8 @@
 //! out of the count for good. Every part of a place is allowed so many actions before all others come
 //! first, and again as many when nothing is left elsewhere, until that has brought no new ground for
 //! long; then what is left is given up (`haunts`). Parts lie a step from each other where places are
-//! recognised, so a bounded place has finitely many of them. Without recognition drift may found ever
+//! recognised, so a bounded place has finitely many of them. That holds for maps whose frontier belongs
+//! to vertices; for others only the rules before hold. Without recognition drift may found ever
 //! new ones: then the step limit ends the run, as not complete.
 
 mod approach;

@@ -184,3 +184,16 @@ fn a_place_that_is_never_done_does_not_keep_the_robot_from_others() {
     assert!(left.is_some_and(|at| at < 200), "{left:?}");
     assert_eq!(played.ending, Some(Ending::Complete));
 }
+
+#[test]
+fn a_map_without_frontier_by_vertex_is_never_left_while_a_goal_is_in_view() {
+    let mut map = fleeing();
+    map.by_vertex = false;
+    map.out_of_view_m = f64::from;
+    map.routes = [Route::Repeat(vec![(VertexId(0), 1.0)])].into();
+    let played = play(map, RapidParams::default());
+    let given_up = played.heard.given_up();
+    assert_eq!(given_up.first(), Some(&GiveUp::NothingNew));
+    let repeats = played.robot.commands.iter().position(|c| matches!(c, Command::Repeat(_)));
+    assert!(repeats.is_none_or(|at| at > 400), "{repeats:?}");
+}

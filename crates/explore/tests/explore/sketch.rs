@@ -58,6 +58,8 @@ pub struct Sketch {
     pub routes: VecDeque<Route>,
     /// Length of frontier out of view after so many scans, metres.
     pub out_of_view_m: fn(u32) -> f64,
+    /// Whether its routes can leave out places that wait.
+    pub by_vertex: bool,
     first_from_vertex: Vec<Se2>,
     scans: u32,
 }
@@ -72,6 +74,7 @@ impl Sketch {
             routes: VecDeque::new(),
             // A sum that is kept up to date over a long run never has the same bits twice.
             out_of_view_m: |scans| 1e-12 * f64::from(scans),
+            by_vertex: true,
             first_from_vertex: vec![Se2::identity()],
             scans: 0,
         }
@@ -152,6 +155,10 @@ impl ExplorationMap for Sketch {
 
     fn route(&mut self, _standing: &Standing, _clearance_m: f64) -> Option<Route> {
         self.routes.pop_front()
+    }
+
+    fn has_frontier_by_vertex(&self) -> bool {
+        self.by_vertex
     }
 
     fn frontier_at(&self, _vertex: VertexId) -> f64 {

@@ -33,6 +33,12 @@ pub(crate) fn about(options: &RecordingOptions) -> String {
             map.name
         ));
     }
+    if options.level == Level::Summary {
+        page.push_str(
+            "- At level `summary` obstacles and what was closed are drawn of the 40 nearest volumes in \
+             scope, the frontier of all.\n",
+        );
+    }
     if options.level == Level::Full {
         page.push_str(
             "- Tab **the last event**: switch to the timeline `event` and step: thick lines draw \

@@ -206,6 +206,10 @@ impl ExplorationMap for RelativeMap {
         self.way_to_frontier(standing, &|_| true)
     }
 
+    fn has_frontier_by_vertex(&self) -> bool {
+        true
+    }
+
     fn route_to(
         &mut self,
         standing: &Standing,
