@@ -146,6 +146,7 @@ fn in_short_legs(way: &[Point2]) -> Vec<Point2> {
         points.extend(on.chain([*to]).filter(|point| point.coords.norm() >= AT_ROBOT_M));
         from = *to;
     }
-    // A goal where the robot stands is one still.
-    if points.is_empty() { way.last().copied().into_iter().collect() } else { points }
+    // A goal where the robot stands is one still, even if the way to it leads elsewhere first.
+    points.extend(way.last().filter(|goal| goal.coords.norm() < AT_ROBOT_M));
+    points
 }
