@@ -150,11 +150,12 @@ mod tests {
     proptest! {
         #[test]
         fn the_distance_is_that_along_an_eigenvector(
-            points in prop::collection::vec((-2.0..2.0_f32, -2.0..2.0_f32, 0.5..8.0_f32), 3..9),
-            point in (-2.0..2.0_f32, -2.0..2.0_f32, 0.5..8.0_f32),
+            points in prop::collection::vec((-2.0..2.0, -2.0..2.0, 0.5..8.0), 3..9),
+            point in (-2.0..2.0, -2.0..2.0, 0.5..8.0),
         ) {
-            let points: Vec<[f32; 3]> = points.into_iter().map(|(x, y, z)| [x, y, z]).collect();
-            let point = [point.0, point.1, point.2];
+            let short = |(x, y, z): (f64, f64, f64)| [x as f32, y as f32, z as f32];
+            let points: Vec<[f32; 3]> = points.into_iter().map(short).collect();
+            let point = short(point);
             let exact: Vec<Point> =
                 points.iter().map(|p| Point::from(p.map(f64::from))).collect();
             let middle = exact.iter().sum::<Point>() / points.len() as f64;
