@@ -6,7 +6,7 @@ use serde::Deserialize;
 use toml::de::DeTable;
 
 use super::ConfigError;
-use super::typed::Typed;
+use super::typed::{self, Checked};
 
 /// A sweep; one table says of what.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -83,12 +83,7 @@ impl Sweep {
     /// # Errors
     /// The first thing wrong, with file, line and column.
     pub fn read(path: &Path) -> Result<Self, ConfigError> {
-        let text = std::fs::read_to_string(path).map_err(|reason| ConfigError::Unreadable {
-            path: path.to_owned(),
-            reason,
-            expected: "the TOML config of a sweep".into(),
-        })?;
-        Self::from_text(path, &text)
+        typed::read(path)
     }
 
     /// As [`read`](Self::read), from the text of the file.
@@ -96,17 +91,11 @@ impl Sweep {
     /// # Errors
     /// As there.
     pub fn from_text(path: &Path, text: &str) -> Result<Self, ConfigError> {
-        let typed = Typed::<Self>::from_text(path, text)?;
-        match typed.value.fault() {
-            None => Ok(typed.value),
-            Some((key, found, expected)) => {
-                Err(typed.refused(&format!("graph.outliers.{key}"), &found, expected))
-            }
-        }
+        typed::from_text(path, text)
     }
 
     /// The key of the first value out of range, what was found and what was expected.
-    fn fault(&self) -> Option<(&'static str, String, String)> {
+    fn first_fault(&self) -> Option<(&'static str, String, String)> {
         let sweep = &self.graph.outliers;
         let known = || posegraph::Robust::ALL.map(posegraph::Robust::name);
         if sweep.files.is_empty() && sweep.synthetic.is_empty() {
@@ -131,6 +120,15 @@ impl Sweep {
             return Some(("shares", "an empty list".into(), "at least one share".into()));
         }
         (sweep.seeds == 0).then(|| ("seeds", "0".into(), "a whole number of at least 1".into()))
+    }
+}
+
+impl Checked for Sweep {
+    const WHAT: &'static str = "the TOML config of a sweep";
+
+    fn fault(&self) -> Option<(String, String, String)> {
+        let (key, found, expected) = self.first_fault()?;
+        Some((format!("graph.outliers.{key}"), found, expected))
     }
 }
 

@@ -6,7 +6,7 @@ use maps3d::reduce::{HoleMethod, Method};
 use serde::Deserialize;
 
 use super::ConfigError;
-use super::typed::Typed;
+use super::typed::{self, Checked};
 
 /// A ladder of reductions.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -97,12 +97,7 @@ impl Ladder {
     /// # Errors
     /// The first thing wrong, with file, line and column.
     pub fn read(path: &Path) -> Result<Self, ConfigError> {
-        let text = std::fs::read_to_string(path).map_err(|reason| ConfigError::Unreadable {
-            path: path.to_owned(),
-            reason,
-            expected: "the TOML config of a ladder".into(),
-        })?;
-        Self::from_text(path, &text)
+        typed::read(path)
     }
 
     /// As [`read`](Self::read), from the text of the file.
@@ -110,11 +105,7 @@ impl Ladder {
     /// # Errors
     /// As there.
     pub fn from_text(path: &Path, text: &str) -> Result<Self, ConfigError> {
-        let typed = Typed::<Self>::from_text(path, text)?;
-        match typed.value.fault() {
-            None => Ok(typed.value),
-            Some((key, found, expected)) => Err(typed.refused(key, &found, expected)),
-        }
+        typed::from_text(path, text)
     }
 
     /// The methods, in order.
@@ -123,7 +114,8 @@ impl Ladder {
         self.ladder.methods.iter().filter_map(|name| Method::named(name, hole)).collect()
     }
 
-    fn fault(&self) -> Option<(&'static str, String, String)> {
+    /// The key of the first value out of range, what was found and what was expected.
+    fn first_fault(&self) -> Option<(&'static str, String, String)> {
         let rungs = &self.ladder;
         let hole = HoleMethod::named(&rungs.hole);
         if hole.is_none() {
@@ -147,9 +139,9 @@ impl Ladder {
             return Some(("name", format!("{:?}", self.name), "a name without slashes".into()));
         }
         let room = &self.room;
-        if !(2..=4096).contains(&room.columns) || !(2..=4096).contains(&room.rows) {
+        let sides = [("room.columns", room.columns), ("room.rows", room.rows)];
+        if let Some((key, _)) = sides.iter().find(|(_, pixels)| !(2..=4096).contains(pixels)) {
             let found = format!("{} x {} pixels", room.columns, room.rows);
-            let key = if (2..=4096).contains(&room.columns) { "room.rows" } else { "room.columns" };
             return Some((key, found, "2 to 4096 each way".into()));
         }
         [
@@ -163,6 +155,14 @@ impl Ladder {
             let expected = format!("a number from {} to {}", range.start(), range.end());
             (key, value.to_string(), expected)
         })
+    }
+}
+
+impl Checked for Ladder {
+    const WHAT: &'static str = "the TOML config of a ladder";
+
+    fn fault(&self) -> Option<(String, String, String)> {
+        self.first_fault().map(|(key, found, expected)| (key.to_owned(), found, expected))
     }
 }
 

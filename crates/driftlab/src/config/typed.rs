@@ -1,4 +1,4 @@
-//! A text read as its type, with the places of its keys.
+//! Configs that are no experiment: a text read as its type, checked, with the places of its keys.
 
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
@@ -12,9 +12,43 @@ use super::document::{Spans, spans};
 use super::explain::explained;
 use super::source::{Place, Sources};
 
+/// A type that a whole file is read as.
+pub(super) trait Checked: DeserializeOwned {
+    /// What the file should be, for the message where it cannot be read.
+    const WHAT: &'static str;
+
+    /// The key of the first value out of range, what was found, and what was expected.
+    fn fault(&self) -> Option<(String, String, String)>;
+}
+
+/// Reads and checks a file.
+///
+/// # Errors
+/// The first thing wrong, with file, line and column.
+pub(super) fn read<T: Checked>(path: &Path) -> Result<T, ConfigError> {
+    let text = std::fs::read_to_string(path).map_err(|reason| ConfigError::Unreadable {
+        path: path.to_owned(),
+        reason,
+        expected: T::WHAT.into(),
+    })?;
+    from_text(path, &text)
+}
+
+/// As [`read`], from the text of the file.
+///
+/// # Errors
+/// As there.
+pub(super) fn from_text<T: Checked>(path: &Path, text: &str) -> Result<T, ConfigError> {
+    let typed = Typed::<T>::from_text(path, text)?;
+    match typed.value.fault() {
+        None => Ok(typed.value),
+        Some((key, found, expected)) => Err(typed.refused(&key, &found, expected)),
+    }
+}
+
 /// What a file says, and where each key of it stands.
-pub(super) struct Typed<T> {
-    pub value: T,
+struct Typed<T> {
+    value: T,
     path: PathBuf,
     sources: Sources,
     spans: BTreeMap<String, Spans>,
@@ -22,7 +56,7 @@ pub(super) struct Typed<T> {
 
 impl<T: DeserializeOwned> Typed<T> {
     /// Reads a text; `path` is where it came from.
-    pub fn from_text(path: &Path, text: &str) -> Result<Self, ConfigError> {
+    fn from_text(path: &Path, text: &str) -> Result<Self, ConfigError> {
         let mut sources = Sources::default();
         let base = sources.add_file(path, text.to_owned());
         let parsed = DeTable::parse(text);
@@ -39,7 +73,7 @@ impl<T: DeserializeOwned> Typed<T> {
 
 impl<T> Typed<T> {
     /// The message for a key whose value is out of range.
-    pub fn refused(&self, key: &str, found: &str, expected: String) -> ConfigError {
+    fn refused(&self, key: &str, found: &str, expected: String) -> ConfigError {
         let place = self
             .spans
             .get(key)
