@@ -74,7 +74,8 @@ impl Coverage {
     ///
     /// # Errors
     /// [`MetricsError::CellSize`] where the side of a square cell is not positive or makes too many
-    /// cells, [`MetricsError::GridSize`] where columns and rows make none or too many.
+    /// cells, [`MetricsError::CellBeyondPlace`] where it is longer than the place twice over,
+    /// [`MetricsError::GridSize`] where columns and rows make none or too many.
     pub fn new(world: &World2d, params: CoverageParams) -> Result<Self, MetricsError> {
         let cells = FreeCells::new(world, params.cells)?;
         let count = |marks: &[bool]| marks.iter().filter(|&&mark| mark).count();

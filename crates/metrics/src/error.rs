@@ -14,6 +14,14 @@ pub enum MetricsError {
         /// Most cells that are allowed.
         limit: usize,
     },
+    /// One square cell would hold the whole place several times.
+    #[error("evaluation cells of {cell_m} m: at most {most_m} m, twice the extent of the place")]
+    CellBeyondPlace {
+        /// Side of a cell, metres.
+        cell_m: f64,
+        /// Twice the longer side of the bounds of the place, metres.
+        most_m: f64,
+    },
     /// Columns and rows make no cell, or too many.
     #[error("{columns} columns and {rows} rows: from 1 to {limit} evaluation cells are allowed")]
     GridSize {

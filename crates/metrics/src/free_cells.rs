@@ -33,6 +33,10 @@ fn cut(extent_m: &Vector2, shape: CellShape) -> Result<(usize, usize, Vector2), 
             if !positive || cells.is_nan() || cells > MAX_CELLS as f64 {
                 return Err(MetricsError::CellSize { cell_m: side_m, cells, limit: MAX_CELLS });
             }
+            let most_m = 2.0 * extent_m.amax();
+            if side_m > most_m {
+                return Err(MetricsError::CellBeyondPlace { cell_m: side_m, most_m });
+            }
             Ok((columns as usize, rows as usize, Vector2::new(side_m, side_m)))
         }
         CellShape::Grid { columns, rows } => {

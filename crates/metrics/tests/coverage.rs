@@ -320,9 +320,13 @@ fn cell_sizes_that_make_no_grid_are_refused() {
         let refused = Coverage::new(&world, CoverageParams { cells, rule: Rule::Rays });
         assert!(matches!(refused, Err(MetricsError::GridSize { .. })), "{columns} by {rows}");
     }
-    // Larger than the place: one cell, which the walls cut.
-    let coverage = Coverage::new(&world, CoverageParams { cells: square(100.0), rule: Rule::Rays });
-    assert_eq!(coverage.map(|coverage| coverage.cells_total()), Ok(0));
+    // Larger than the place: one cell, which the walls cut; much larger can only be a slip.
+    let coverage = |cell_m| {
+        Coverage::new(&world, CoverageParams { cells: square(cell_m), rule: Rule::Rays })
+            .map(|coverage| coverage.cells_total())
+    };
+    assert_eq!(coverage(62.0), Ok(0));
+    assert_eq!(coverage(100.0), Err(MetricsError::CellBeyondPlace { cell_m: 100.0, most_m: 62.0 }));
 }
 
 #[test]

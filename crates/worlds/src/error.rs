@@ -12,6 +12,14 @@ pub enum WorldError {
         /// Extent along y, metres.
         height_m: f64,
     },
+    /// The map reaches farther from the origin than positions are exact enough for.
+    #[error("the map reaches {reach_m:e} m from its origin: at most {limit_m:e} m")]
+    TooFar {
+        /// Largest coordinate of its corners, metres.
+        reach_m: f64,
+        /// Most that is allowed.
+        limit_m: f64,
+    },
     /// The list of cells does not fill the map.
     #[error("the map lists {found} cells where its columns and rows make {expected}")]
     CellCount {

@@ -8,6 +8,9 @@ use pose::Se2;
 
 use crate::{CellMap, Solid, WorldError};
 
+/// Largest coordinate of a place, metres: beyond it a double no longer tells micrometres apart.
+const MOST_REACH_M: f64 = 1e9;
+
 /// A simulated place of the plane, in the `world` frame; immutable, and cheap to clone.
 ///
 /// Only simulators and metrics may hold one: it is the truth.
@@ -28,6 +31,7 @@ impl World2d {
     ///
     /// # Errors
     /// [`WorldError::NoArea`] for a map without cells or with a cell size that is not positive,
+    /// [`WorldError::TooFar`] where it reaches beyond 1e9 m from the origin,
     /// [`WorldError::CellCount`] where the cells do not fill the map,
     /// [`WorldError::StartNotFree`] where the start stands on a solid cell.
     pub fn from_cells(
@@ -54,6 +58,7 @@ impl World2d {
     ///
     /// # Errors
     /// [`WorldError::NoArea`] where the rings span no area or a coordinate is not finite,
+    /// [`WorldError::TooFar`] where they reach beyond 1e9 m from the origin,
     /// [`WorldError::StartNotFree`] where the start does not stand in free space.
     pub fn from_polygons(
         name: impl Into<String>,
@@ -82,6 +87,10 @@ impl World2d {
         let finite = width_m.is_finite() && height_m.is_finite();
         if !finite || width_m <= 0.0 || height_m <= 0.0 {
             return Err(WorldError::NoArea { width_m, height_m });
+        }
+        let reach_m = bounds.0.coords.amax().max(bounds.1.coords.amax());
+        if reach_m > MOST_REACH_M {
+            return Err(WorldError::TooFar { reach_m, limit_m: MOST_REACH_M });
         }
         let caster = SegmentCaster::new(&solid.border());
         Self {

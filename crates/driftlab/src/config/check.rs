@@ -8,7 +8,7 @@ use worlds::generate::{CavesParams, CorridorParams, MazeParams, PillarsParams, R
 use super::document::join;
 use super::load::properties_of;
 use super::schema::{properties, resolved, schema};
-use super::{Config, World};
+use super::{Config, World, reach};
 
 /// A value outside what its key allows.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -31,10 +31,11 @@ pub(super) fn faults(config: &Config) -> Vec<Fault> {
         faults.push(fault("seed", config.seed.to_string(), format!("at most {}", i64::MAX)));
     }
     between_keys(config, &mut faults);
+    faults.extend(reach::faults(config));
     faults
 }
 
-fn fault(path: &str, found: String, expected: String) -> Fault {
+pub(super) fn fault(path: &str, found: String, expected: String) -> Fault {
     Fault { path: path.to_owned(), found, expected }
 }
 
@@ -229,6 +230,6 @@ mod tests {
         config.sensor.fov_deg = 360.0;
         assert_eq!(faults(&config), []);
         config.sensor.fov_deg = 0.0;
-        assert_eq!(faults(&config)[0].expected, "a number above 0 and at most 360");
+        assert_eq!(faults(&config)[0].expected, "a number of at least 0.000001 and at most 360");
     }
 }

@@ -183,7 +183,8 @@ impl Loaded {
         &self.notes
     }
 
-    /// Where the value of a dotted key was written; for one that was not, its table or the file.
+    /// Where the value of a dotted key was written; for one that was not, its table or the end of
+    /// the file.
     pub fn place(&self, path: &str) -> Place {
         let mut path = path;
         loop {
@@ -192,7 +193,11 @@ impl Loaded {
             }
             match path.rsplit_once('.') {
                 Some((parent, _)) => path = parent,
-                None => return Place::file(&self.path),
+                // What is missing is told where it could be added: at the end of the file.
+                None => {
+                    let end = self.text.trim_end().len();
+                    return self.sources.place(end..end);
+                }
             }
         }
     }

@@ -70,7 +70,7 @@ pub struct RelativeMap {
     /// Frontier counts as inside another polygon only if it stays inside when their relative pose
     /// is wrong by so many standard deviations of the odometry between them. 0 trusts placement, as
     /// the paper does.
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0, max = 1e6))]
     pub certainty_sigmas: f64,
     /// Take volumes that add nothing out of later comparisons; no frontier changes by it.
     pub retire: bool,

@@ -11,7 +11,7 @@
 //! | `to_params` | the same as the algorithms want it, in radians |
 //! | `load` | file and command line to a checked config |
 //! | `source`, `document` | texts, spans, merging |
-//! | `schema`, `check` | ranges, from the types' attributes; rules between keys |
+//! | `schema`, `limits`, `check`, `reach` | ranges, from the types' attributes and units; rules between keys |
 //! | `explain`, `error` | the messages |
 //! | `axes` | what a sweep of an experiment varies |
 //! | `graph_sweep` | the config of a sweep over pose graphs |
@@ -28,9 +28,11 @@ mod explain;
 mod generators;
 mod graph_sweep;
 mod ladder;
+mod limits;
 mod load;
 mod maps;
 mod planner;
+mod reach;
 mod report;
 mod robot;
 mod schema;

@@ -31,10 +31,10 @@ macro_rules! policy_table {
         #[serde(deny_unknown_fields, default)]
         pub struct $name {
             /// Longest straight move before the next scan, metres.
-            #[schemars(extend("exclusiveMinimum" = 0.0))]
+            #[schemars(range(min = 0.001))]
             pub step_m: f64,
-            /// Distances to keep from obstacles, metres, tried in this order: a fixed one traps the
-            /// robot.
+            /// Distances to keep between the body and obstacles, metres, tried in this order: a
+            /// fixed one traps the robot.
             #[schemars(length(min = 1), inner(range(min = 0.0)))]
             pub clearances_m: Vec<f64>,
             /// A turn smaller than this is made without a scan of its own, degrees.

@@ -11,7 +11,7 @@ pub struct Sensor {
     #[schemars(range(max = 360.0), extend("exclusiveMinimum" = 0.0))]
     pub fov_deg: f64,
     /// Range beyond which a ray sees nothing, metres.
-    #[schemars(extend("exclusiveMinimum" = 0.0))]
+    #[schemars(range(min = 0.01))]
     pub range_m: f64,
     /// Number of rays.
     #[schemars(range(min = 3, max = 100_000))]
@@ -33,17 +33,19 @@ impl Default for Sensor {
 #[serde(deny_unknown_fields, default)]
 pub struct Odometry {
     /// Standard deviation after one metre, each axis; m/√m.
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0, max = 100.0))]
     pub sigma_translation: f64,
     /// Standard deviation of the heading after one metre; degrees/√m.
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0, max = 360.0))]
     pub sigma_rotation: f64,
     /// Factor on both: the paper's α.
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0, max = 1000.0))]
     pub scale: f64,
     /// Mean error along the heading, metres per metre; scaled as well.
+    #[schemars(range(min = -100.0, max = 100.0))]
     pub bias_translation: f64,
     /// Mean error of the heading, degrees per metre, to the left; scaled as well.
+    #[schemars(range(min = -360.0, max = 360.0))]
     pub bias_rotation: f64,
 }
 
@@ -69,7 +71,7 @@ pub struct Places {
     #[schemars(range(min = 0.0))]
     pub radius_m: f64,
     /// A known pose within this many radii along the graph is no news and is not matched.
-    #[schemars(range(min = 0.0))]
+    #[schemars(range(min = 0.0, max = 1e6))]
     pub exclude_factor: f64,
     /// Share of the places that are recognised.
     #[schemars(range(min = 0.0, max = 1.0))]

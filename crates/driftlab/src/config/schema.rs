@@ -5,6 +5,7 @@ use std::sync::OnceLock;
 use serde_json::Value;
 
 use super::Config;
+use super::limits::limit_by_unit;
 
 /// The JSON Schema of a config, draft 2020-12: keys, ranges, and what each means.
 pub fn schema() -> &'static Value {
@@ -12,6 +13,7 @@ pub fn schema() -> &'static Value {
     SCHEMA.get_or_init(|| {
         let mut schema = schemars::schema_for!(Config).to_value();
         unescape(&mut schema);
+        limit_by_unit(&mut schema);
         schema
     })
 }

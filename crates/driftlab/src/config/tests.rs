@@ -205,5 +205,15 @@ fn each_mistake_of_the_command_line_gets_one_message_too() {
         (MAZE, &[""]),
         (MAZE, &["sensor=3"]),
         (MAZE, &["world.maze.rows=0"]),
+        (MAZE, &["robot.radius_m=1e9"]),
+        (MAZE, &["sensor.range_m=1e-300"]),
+        (MAZE, &["planner.rapid.step_m=1e-300"]),
+        (MAZE, &["metrics.cell_m=1e300"]),
+        (MAZE, &["map.relative.wall_closing_m=1e300"]),
+        (MAZE, &["map.relative.wall_closing_m=11"]),
+        (MAZE, &["map.grid.cell_m=1e-7"]),
+        (MAZE, &["map.grid.cell_m=1e-3"]),
+        (MAZE, &["start.x_m=1e300"]),
+        ("[world.paper]\n[map.relative]\n[robot]\nradius_m = 10.5\n", &[]),
     ]));
 }

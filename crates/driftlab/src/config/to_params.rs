@@ -1,6 +1,6 @@
 //! The tables of a config as the algorithms want them: plain parameters, radians.
 
-use explore::{ExploreParams, Policy};
+use explore::{ExploreParams, Policy, RapidParams};
 use maps2d::active::ActiveAreaParams;
 use maps2d::correction::CorrectionParams;
 use maps2d::extended::ExtendedParams;
@@ -212,9 +212,17 @@ impl Config {
 
 impl From<&Config> for ExploreParams {
     fn from(config: &Config) -> Self {
+        // The policy plans for a point: it keeps the body's radius away from walls as well.
+        let for_body = |mut params: RapidParams| {
+            params
+                .clearances_m
+                .iter_mut()
+                .for_each(|clearance_m| *clearance_m += config.robot.radius_m);
+            params
+        };
         let policy = match &config.planner {
-            Planner::Rapid(planner) => Policy::Rapid(planner.into()),
-            Planner::Survey(planner) => Policy::Survey(planner.into()),
+            Planner::Rapid(planner) => Policy::Rapid(for_body(planner.into())),
+            Planner::Survey(planner) => Policy::Survey(for_body(planner.into())),
         };
         Self { policy, max_steps: u64::from(config.max_steps) }
     }

@@ -52,6 +52,7 @@ pub fn build_place(loaded: &Loaded) -> Result<Place, ConfigError> {
     let built = built.and_then(|world| jittered(world, &config));
     match built {
         Ok(world) => {
+            check_body(&world, loaded)?;
             let Files { inputs, warnings } = files;
             Ok(Place { world: Arc::new(world), inputs, warnings })
         }
@@ -64,7 +65,12 @@ pub fn build_place(loaded: &Loaded) -> Result<Place, ConfigError> {
             Err(ConfigError::World { place, message: format!("{file}{message}") })
         }
         Err(Trouble::World(error)) => {
+            let mut message = error.to_string();
             let key = match &error {
+                WorldError::OneShade { .. } => {
+                    message = format!("{message}: `world.image.solid_below`");
+                    format!("world.{}", world.key())
+                }
                 WorldError::StartNotFree { .. } | WorldError::StartBlocked { .. } => "start".into(),
                 WorldError::Parameter { field, .. } if field.starts_with("start") => "start".into(),
                 WorldError::Parameter { field, .. } => format!("world.{}.{field}", world.key()),
@@ -73,9 +79,27 @@ pub fn build_place(loaded: &Loaded) -> Result<Place, ConfigError> {
             let place = loaded.place(&key);
             let named = world.file().filter(|_| place.line_column.is_some());
             let file = named.map_or_else(String::new, |(_, file)| format!("{}: ", file.display()));
-            Err(ConfigError::World { place, message: format!("{file}{error}") })
+            Err(ConfigError::World { place, message: format!("{file}{message}") })
         }
     }
+}
+
+/// The body has to fit where it starts.
+fn check_body(world: &World2d, loaded: &Loaded) -> Result<(), ConfigError> {
+    let radius_m = loaded.config.robot.radius_m;
+    let at = Point2::from(world.world_from_start().translation);
+    let room_m = world.caster().distance_to(&at);
+    if radius_m < room_m {
+        return Ok(());
+    }
+    Err(ConfigError::Value {
+        place: loaded.place("robot.radius_m"),
+        found: format!("{radius_m:?} for `robot.radius_m`"),
+        expected: format!(
+            "below {room_m:.3}: so near to a wall is the start ({:.3} m, {:.3} m)",
+            at.x, at.y
+        ),
+    })
 }
 
 /// Why a place could not be built.
@@ -353,6 +377,8 @@ mod tests {
             "[world.pillars]\ncount = 10000",
             "[start]\nx_m = 5.5\ny_m = 0.2\n[world.paper]\nmap = \"open\"",
             "[world.polygons]\noutline = [[0, 0], [1, 0], [2, 0]]",
+            "[world.polygons]\noutline = [[0, 0], [1e10, 0], [0, 1e10]]",
+            "[robot]\nradius_m = 2.5\n[world.paper]\nmap = \"maze\"",
         ] {
             let error = place(folder.path(), text).unwrap_err();
             page.push_str(&format!("{text}\n--> {error}\n\n"));
