@@ -5,6 +5,7 @@ pub mod config;
 mod files;
 mod report;
 pub mod run;
+mod stopwatch;
 pub mod sweep;
 mod table;
 

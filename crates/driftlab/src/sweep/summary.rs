@@ -17,7 +17,7 @@ struct Line<'a> {
 }
 
 /// One line for each graph and method: for each share the successes, the largest RMSE in percent, the
-/// lowest precision and recall, and the mean seconds.
+/// lowest precision and recall, and the mean CPU seconds.
 ///
 /// The rows of both tables belong to the same jobs.
 pub(crate) fn markdown(results: &Table, timing: &Table) -> String {

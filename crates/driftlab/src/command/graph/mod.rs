@@ -10,7 +10,6 @@ pub(super) mod numbers;
 mod optimize;
 mod output;
 mod start;
-mod stopwatch;
 
 pub(super) use args::GraphArgs;
 use args::GraphCommand;

@@ -22,7 +22,7 @@ use super::input;
 use super::numbers::{listed, shown};
 use super::output::{self, Target};
 use super::start::{self, Solved};
-use super::stopwatch::Spent;
+use crate::stopwatch::Spent;
 
 pub(super) fn optimize(args: &OptimizeArgs, out: &Out) -> Result<(), Failure> {
     let target = args.output.as_deref().map(|path| Target::new(path, args.to, args.force));
@@ -36,6 +36,8 @@ pub(super) fn optimize(args: &OptimizeArgs, out: &Out) -> Result<(), Failure> {
         AnyGraph::Plane(graph) => solve(graph, args, out)?,
         AnyGraph::Space(graph) => solve(graph, args, out)?,
     };
+    // Poses that are no numbers are no result: nobody could read the file.
+    let target = target.filter(|_| done.finite);
     let secs_write = target.as_ref().map(|target| {
         let start = Instant::now();
         target.write(&solved).map(|()| start.elapsed().as_secs_f64())
@@ -84,6 +86,8 @@ struct Done {
     rows: Vec<(&'static str, String)>,
     init_time: Spent,
     optimize_time: Spent,
+    /// Whether the poses are numbers.
+    finite: bool,
     failure: Option<Failure>,
 }
 
@@ -312,12 +316,17 @@ fn tell<P: Dimension<D>, const D: usize>(
         let scale = shown(doubts.noise_scale);
         rows.push(("noise scale", format!("{scale} times the variance that the file says")));
     }
+    let file = args.file.display();
     let failure = match report.termination {
-        Termination::NotFinite { .. } | Termination::Singular { .. } => {
-            let name = report.termination.name();
-            Some(Failure::Work(anyhow!("{}: ended with {name}", args.file.display())))
-        }
+        Termination::NotFinite { .. } => Some(Failure::Work(anyhow!(
+            "{file}: ended with not_finite: measurements times information are too large for floating \
+             point numbers; no poses were written"
+        ))),
+        Termination::Singular { .. } => Some(Failure::Work(anyhow!(
+            "{file}: ended with singular: the edges leave poses undetermined, which stay where they started"
+        ))),
         _ => None,
     };
-    Done { json, rows, init_time, optimize_time, failure }
+    let finite = !matches!(report.termination, Termination::NotFinite { .. });
+    Done { json, rows, init_time, optimize_time, finite, failure }
 }

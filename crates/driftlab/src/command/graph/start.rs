@@ -10,7 +10,7 @@ use probe::Probe;
 use serde_json::{Value, json};
 
 use super::args::Init;
-use super::stopwatch::{Spent, Stopwatch};
+use crate::stopwatch::{Spent, Stopwatch};
 
 /// A solution, and how it came about.
 pub(super) struct Solved<P> {

@@ -4,7 +4,7 @@ use std::time::Instant;
 
 /// Time that something took.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Spent {
+pub(crate) struct Spent {
     /// Seconds on the wall.
     pub secs: f64,
     /// Seconds on the processor, of the thread that asks: what other work on the machine makes no
@@ -14,7 +14,7 @@ pub(super) struct Spent {
 
 impl Spent {
     /// What is left without a part of it.
-    pub(super) fn less(self, part: Self) -> Self {
+    pub(crate) fn less(self, part: Self) -> Self {
         let left = |whole: f64, part: f64| (whole - part).max(0.0);
         let cpu_secs = self.cpu_secs.zip(part.cpu_secs).map(|(whole, part)| left(whole, part));
         Self { secs: left(self.secs, part.secs), cpu_secs }
@@ -22,20 +22,20 @@ impl Spent {
 }
 
 /// Started when it is made.
-pub(super) struct Stopwatch {
+pub(crate) struct Stopwatch {
     began: Instant,
     cpu_began: Option<f64>,
 }
 
 impl Stopwatch {
-    pub(super) fn start() -> Self {
+    pub(crate) fn start() -> Self {
         // In this order, so that asking for the one does not count for the other.
         let cpu_began = cpu_secs();
         Self { cpu_began, began: Instant::now() }
     }
 
     /// Time since the start.
-    pub(super) fn spent(&self) -> Spent {
+    pub(crate) fn spent(&self) -> Spent {
         let secs = self.began.elapsed().as_secs_f64();
         let cpu_secs = cpu_secs().zip(self.cpu_began).map(|(now, began)| now - began);
         Spent { secs, cpu_secs }
