@@ -294,3 +294,32 @@ fn one_seed_one_file() {
         assert_eq!(desk.read("a.g2o"), desk.read("b.g2o"), "{shape}");
     }
 }
+
+#[test]
+fn poses_that_are_no_numbers_are_not_written() {
+    let desk = Desk::new();
+    let long = "1e300 0 0 1e300 0 0 1e300 0 1";
+    desk.put("huge.g2o", &format!("EDGE_SE2 0 1 {long}\nEDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n"));
+    let output = desk.graph(&["optimize", "huge.g2o", "-o", "out.g2o"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains("ended with not_finite"), "{}", stderr(&output));
+    assert_eq!(desk.listing(), ["huge.g2o"]);
+}
+
+#[test]
+fn what_no_edge_determines_stays_where_it_was() {
+    let desk = Desk::new();
+    desk.put("one.g2o", "VERTEX_SE2 7 1 2 3\n");
+    let told = desk.json(&["optimize", "one.g2o", "-o", "out.g2o"]);
+    assert_eq!(told["chi2"].to_string(), "0.0", "and not -0.0");
+    assert_eq!(told["termination"], "nothing_to_do");
+    assert_eq!(desk.read("out.g2o"), desk.read("one.g2o"));
+
+    // Information of zero says nothing: an error says so, and the poses are written as they came.
+    let free = "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 5 0 0\nEDGE_SE2 0 1 1 0 0 0 0 0 0 0 0\n";
+    desk.put("free.g2o", free);
+    let output = desk.graph(&["optimize", "free.g2o", "--init", "file", "-o", "free2.g2o"]);
+    assert_eq!(output.status.code(), Some(1));
+    assert!(stderr(&output).contains("ended with singular"), "{}", stderr(&output));
+    assert_eq!(desk.read("free2.g2o"), free);
+}

@@ -10,7 +10,8 @@ pub fn chi2<P: Manifold<D>, const D: usize>(
     poses: &[P],
     kind: ErrorKind,
 ) -> f64 {
-    chi2_of_factors(graph, poses, kind).iter().sum()
+    // From +0: an empty sum of floats is -0.
+    chi2_of_factors(graph, poses, kind).iter().fold(0.0, |sum, chi2| sum + chi2)
 }
 
 /// `eᵀ Ω e` of each factor, in the order of the factors; information matrices as they stand.

@@ -200,7 +200,8 @@ impl<'a, P: Manifold<D>, const D: usize> Problem<'a, P, D> {
 
     /// `χ²` without losses and weights at the last evaluation, of all factors that are used.
     pub(crate) fn known_chi2(&self) -> f64 {
-        self.factor_chi2.iter().sum()
+        // From +0: an empty sum of floats is -0.
+        self.factor_chi2.iter().fold(0.0, |sum, chi2| sum + chi2)
     }
 
     fn each_chi2<'b>(&'b self, poses: &'b [P]) -> impl Iterator<Item = f64> + use<'a, 'b, P, D> {
