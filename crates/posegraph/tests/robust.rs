@@ -141,6 +141,16 @@ fn few_genuine_closures_are_all_kept() {
 }
 
 #[test]
+fn the_only_closure_of_a_ring_is_believed() {
+    for seed in 1..=6 {
+        let graph = ring(&Ring { seed, ..Ring::default() }).graph;
+        for robust in SETTLING {
+            assert!(solve(&graph, robust).rejected.is_empty(), "{} {seed}", robust.name());
+        }
+    }
+}
+
+#[test]
 fn places_that_look_alike_are_told_apart() {
     exactly_found(&town(8), Wrong::Alike);
 }

@@ -26,10 +26,10 @@ const LOOSE: f64 = 3.0;
 
 /// A wrong closure that is taken where the prediction is looser counts this many times as much as
 /// a genuine one left out: it moves the whole way that leads there.
-const HARM: f64 = 10.0;
+const HARM: f64 = 200.0;
 
 /// Probability with which a good closure passes there, were its noise Gaussian.
-const THERE: f64 = 0.999;
+const THERE: f64 = 0.99;
 
 /// Predictions are worked out up to this many times the largest limit that errors alone suggest.
 const ROOM: f64 = 4.0;
