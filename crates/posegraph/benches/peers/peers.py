@@ -1,4 +1,4 @@
-"""driftlab beside g2o and GTSAM on a folder of g2o files; see README.md here."""
+"""driftlab beside its peers on a folder of g2o files; see README.md here."""
 
 import argparse
 import json
@@ -13,6 +13,17 @@ import graph as files
 
 HERE = pathlib.Path(__file__).parent
 ONE_THREAD = {name: "1" for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "RAYON_NUM_THREADS", "TBB_NUM_THREADS")}
+
+
+# What each is started with.
+PEERS = {"g2o": "python", "gtsam": "python", "apex": "binary", "factrs": "binary"}
+
+# Above so many times our cost a peer ended in another minimum, or nowhere: its time is none for the same work. Below,
+# the cost may still be another one that it minimises.
+ELSEWHERE = 2.0
+
+HEAD = """| graph | poses | iterations | optimise: driftlab | {peers} | of the fastest | process: driftlab | {peers} | of the fastest | chi2 | {peers} |
+|{lines}"""
 
 
 def cpu_of_children():
@@ -62,14 +73,16 @@ def main():
     parser.add_argument("--driftlab", default="target/release/driftlab")
     parser.add_argument("--g2o", help="python with g2o-python and numpy<2")
     parser.add_argument("--gtsam", help="python with gtsam")
+    parser.add_argument("--apex", help="the binary that apex/ here builds")
+    parser.add_argument("--factrs", help="the binary that factrs/ here builds")
     parser.add_argument("--init", default="file", help="start that driftlab computes; 'file' is the odometry chain")
     parser.add_argument("--runs", type=int, default=5)
     parser.add_argument("--limit", type=int, default=120, help="CPU seconds of a run")
     parser.add_argument("--only", help="part of a file's name")
     args = parser.parse_args()
     driftlab = str(pathlib.Path(args.driftlab).resolve())
-    print("| graph | poses | solver | iterations | init + optimise s | process s | chi2 | optimise, of ours | process, of ours |")
-    print("|---|---|---|---|---|---|---|---|---|")
+    peers = [name for name in PEERS if getattr(args, name)]
+    print(HEAD.format(peers=" | ".join(peers), lines="---|" * (3 * len(peers) + 8)))
     with tempfile.TemporaryDirectory() as scratch:
         for path in sorted(args.folder.glob("*.g2o")):
             if args.only and args.only not in path.name:
@@ -77,27 +90,38 @@ def main():
             graph = files.read(path)
             source, target = f"{scratch}/in.g2o", f"{scratch}/out.g2o"
             files.write(source, graph, files.odometry(graph))
-            solvers = {
-                "driftlab": [driftlab, "graph", "optimize", source, "-o", target, "--force",
-                             "--init", args.init, "--json"],
-            }
-            for name in ("g2o", "gtsam"):
-                python = getattr(args, name)
-                if python:
-                    solvers[name] = [python, str(HERE / f"run_{name}.py"), source, target]
-            ours = None
-            for name, command in solvers.items():
+            commands = {"driftlab": [driftlab, "graph", "optimize", source, "-o", target, "--force",
+                                     "--init", args.init, "--json"]}
+            for name in peers:
+                if PEERS[name] == "python":
+                    commands[name] = [getattr(args, name), str(HERE / f"run_{name}.py"), source, target]
+                else:
+                    commands[name] = [str(pathlib.Path(getattr(args, name)).resolve()), source, target]
+            results = {}
+            for name, command in commands.items():
                 pathlib.Path(target).unlink(missing_ok=True)
-                result = best_of(command, args.runs, args.limit)
-                if result is None:
-                    print(f"| {path.stem} | {len(graph.ids)} | {name} | fails | | | | | |")
-                    continue
-                secs, process, said = result
-                cost = files.chi2(graph, files.read_poses(target, len(graph.ids)))
-                ours = ours or (secs, process)
-                print(f"| {path.stem} | {len(graph.ids)} | {name} | {said.get('iterations')} | {secs:.4f} | {process:.3f}"
-                      f" | {cost:.8g} | {secs / ours[0]:.2f} | {process / ours[1]:.1f} |")
-                sys.stdout.flush()
+                found = best_of(command, args.runs, args.limit)
+                if found:
+                    cost = files.chi2(graph, files.read_poses(target, len(graph.ids)))
+                    results[name] = found[0], found[1], cost, found[2].get("iterations")
+            print(row(path.stem, len(graph.ids), peers, results), flush=True)
+
+
+def row(name, poses, peers, results):
+    """One line of the table: milliseconds, and what ours is of the fastest peer that came as low."""
+    if "driftlab" not in results:
+        return f"| {name} | {poses} | fails |"
+    ours = results["driftlab"]
+    cells = [name, str(poses), str(ours[3])]
+    for which in (0, 1):
+        times = [results[peer][which] if peer in results else None for peer in peers]
+        cells += [f"{ours[which] * 1e3:.4g}"] + [f"{time * 1e3:.4g}" if time else "fails" for time in times]
+        ended = [time for peer, time in zip(peers, times) if time and results[peer][2] < ELSEWHERE * ours[2]]
+        cells.append(f"{ours[which] / min(ended):.2f}" if ended else "")
+    cells.append(f"{ours[2]:.8g}")
+    for peer in peers:
+        cells.append(f"{results[peer][2] / ours[2] - 1:+.1e}" if peer in results else "")
+    return f"| {' | '.join(cells)} |"
 
 
 if __name__ == "__main__":
