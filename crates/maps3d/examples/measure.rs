@@ -6,7 +6,8 @@
 //!
 //! A frame is 640 x 480 little-endian floats, metres, 0 where nothing was measured; without one, a
 //! synthetic room is made. Time is that of the processor, not of the clock on the wall. Memory is the
-//! most that the process ever held, itself and the frame included: give it one method by name in `ONLY`. With `--out`, each mesh is written
+//! most that the process ever held, itself and the frame included: give it one method by name in `ONLY`.
+//! `VERTICES=684,684` measures other numbers of vertices, as often as they are named. With `--out`, each mesh is written
 //! as OFF, for others to judge.
 
 use std::fmt::Write as _;
@@ -61,8 +62,13 @@ fn off(mesh: &ImageMesh, image: &FilledImage) -> String {
 
 fn frame(name: &str, image: &DepthImage, out: Option<&Path>) {
     let only = std::env::var("ONLY").unwrap_or_default();
+    let chosen = std::env::var("VERTICES").unwrap_or_default();
+    let mut sizes: Vec<usize> = chosen.split(',').filter_map(|word| word.parse().ok()).collect();
+    if sizes.is_empty() {
+        sizes = SIZES.to_vec();
+    }
     for (method_name, method) in methods().into_iter().filter(|(n, _)| n.contains(&only)) {
-        for vertices in SIZES {
+        for &vertices in &sizes {
             let started = cpu_secs();
             let filled = prepare(image, &PrepareOptions::default()).expect("640 x 480");
             let squares = FrontierSquares::of(&filled, Some(&Occlusion::default()));

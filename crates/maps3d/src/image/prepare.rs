@@ -162,6 +162,17 @@ impl FilledImage {
         self.missing[index / 64] >> (index % 64) & 1 == 1
     }
 
+    /// Calls with the index of each missing pixel, in their order.
+    pub(crate) fn for_each_missing(&self, mut call: impl FnMut(usize)) {
+        for (word, &bits) in self.missing.iter().enumerate() {
+            let mut left = bits;
+            while left != 0 {
+                call(word * 64 + left.trailing_zeros() as usize);
+                left &= left - 1;
+            }
+        }
+    }
+
     /// The point of a pixel, in the frame `camera`, metres.
     pub fn point_in_camera(&self, pixel: Pixel) -> Point3<f64> {
         let [column, row] = pixel.map(f64::from);

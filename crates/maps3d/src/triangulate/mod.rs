@@ -21,4 +21,4 @@ pub use grid::{grid, grid_faces};
 pub use label::label;
 pub use mesh::{ImageMesh, orient};
 pub use planar::check_planar;
-pub(crate) use rows::rows_of;
+pub(crate) use rows::{Span, rows_of};

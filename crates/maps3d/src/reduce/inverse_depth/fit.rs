@@ -3,7 +3,7 @@
 use sensing::Camera;
 
 use super::InverseDepth;
-use super::scan::LiftedPlane;
+use super::scan::{HEADS, LANES, Lanes, LiftedPlane, RAMP, Sheet, each};
 use crate::image::FilledImage;
 use crate::triangulate::{ImageMesh, orient, rows_of};
 
@@ -25,7 +25,7 @@ const TIE: f64 = 1e-3;
 /// O(pixels) per round, [`ROUNDS`] rounds.
 pub(super) fn fit(
     image: &FilledImage,
-    signed_m: &[f32],
+    sheet: &Sheet,
     mesh: &mut ImageMesh,
     options: &InverseDepth,
 ) {
@@ -37,7 +37,7 @@ pub(super) fn fit(
         .fold((f32::INFINITY, 0.0_f32), |(near, far), &z| (near.min(z), far.max(z)));
     let range = [1.0 / f64::from(far), 1.0 / f64::from(near)];
     for _ in 0..ROUNDS {
-        system.assemble(image, signed_m, mesh, &inverse, options);
+        system.assemble(image, sheet, mesh, &inverse, options);
         system.solve(mesh, &mut inverse, range);
     }
     for (depth_m, inverse) in mesh.depths_m.iter_mut().zip(&inverse) {
@@ -58,7 +58,7 @@ impl System {
     fn assemble(
         &mut self,
         image: &FilledImage,
-        signed_m: &[f32],
+        sheet: &Sheet,
         mesh: &ImageMesh,
         inverse: &[f64],
         options: &InverseDepth,
@@ -70,7 +70,7 @@ impl System {
         self.right.resize(vertices, 0.0);
         self.couplings.clear();
         for &triangle in &mesh.triangles {
-            let sums = face_sums(image, signed_m, mesh, triangle, inverse, options);
+            let sums = face_sums(image, sheet, mesh, triangle, inverse, options);
             let [a, b, c] = triangle.map(|v| v as usize);
             for (vertex, square, right) in
                 [(a, sums[0], sums[6]), (b, sums[1], sums[7]), (c, sums[2], sums[8])]
@@ -141,13 +141,12 @@ impl System {
 #[expect(clippy::cast_possible_truncation, reason = "depths are measured to fewer digits")]
 fn face_sums(
     image: &FilledImage,
-    signed_m: &[f32],
+    sheet: &Sheet,
     mesh: &ImageMesh,
     triangle: [u32; 3],
     inverse: &[f64],
     options: &InverseDepth,
 ) -> [f64; 9] {
-    const LANES: usize = 8;
     let camera: &Camera = image.camera();
     let corners = mesh.corner_pixels(triangle);
     let at_corners = triangle.map(|v| inverse[v as usize]);
@@ -158,58 +157,81 @@ fn face_sums(
         let ([px, py], [qx, qy]) = (p.map(f64::from), q.map(f64::from));
         ((qx - px) * (row - py) - (qy - py) * (column - px)) / area
     };
-    let steps = [(1, 2), (2, 0)]
+    let [step_a, step_b] = [(1, 2), (2, 0)]
         .map(|(p, q)| -(f64::from(corners[q][1]) - f64::from(corners[p][1])) / area);
-    let [step_a, step_b] = steps.map(|step| step as f32);
-    let offset = (plane.offset_m * plane.emphasis(at_corners, options.edge_on)) as f32;
-    let (cap, missing) = (options.fit_m as f32, options.missing_weight as f32);
-    let [wa, wb, wc] = at_corners.map(|w| w as f32);
+    let steps = [step_a, step_b, -step_a - step_b];
+    let [wa, wb, wc] = at_corners;
+    let step_w = steps[0] * wa + steps[1] * wb + steps[2] * wc;
+    let offset = plane.offset_m * plane.emphasis(at_corners, options.edge_on);
+    let (per_cap, missing) = ((offset / options.fit_m) as f32, options.missing_weight as f32);
     let mut totals = [0.0_f64; 9];
     for span in rows_of(corners) {
-        let row = &signed_m[span.row * image.columns()..][span.first..=span.last];
         let start = [span.first as f64, span.row as f64];
-        let first_a = share(corners[1], corners[2], start) as f32;
-        let first_b = share(corners[2], corners[0], start) as f32;
-        let mut sums = [[0.0_f32; LANES]; 9];
-        let mut pixel = |lane: usize, at: f32, depth_m: f32| {
-            let share = if depth_m < 0.0 { missing } else { 1.0 };
-            let depth_m = depth_m.abs();
-            let (a, b) = (first_a + at * step_a, first_b + at * step_b);
-            let c = 1.0 - a - b;
-            let off = (a * wa + b * wb + c * wc) * depth_m - 1.0;
-            let error = off * offset / cap;
-            let calm = 1.0 / (1.0 + error * error);
-            let scale = offset * depth_m;
-            let weight = share * calm * calm * scale * scale;
-            let target = weight / depth_m;
-            for (sum, term) in sums.iter_mut().zip([
-                weight * a * a,
-                weight * b * b,
-                weight * c * c,
-                weight * a * b,
-                weight * b * c,
-                weight * c * a,
-                target * a,
-                target * b,
-                target * c,
-            ]) {
-                sum[lane] += term;
-            }
+        let first_a = share(corners[1], corners[2], start);
+        let first_b = share(corners[2], corners[0], start);
+        let first = [first_a, first_b, 1.0 - first_a - first_b];
+        let first_w = first[0] * wa + first[1] * wb + first[2] * wc;
+        // Shares are affine along the row, so powers of the place in it are all that is summed:
+        // of the weights up to the second, of weight times target up to the first.
+        let mut sums = [[0.0; LANES]; 5];
+        let line = [first_w as f32, step_w as f32, per_cap, missing];
+        let (chunks, last, rest) = sheet.lanes(&span);
+        for (chunk, depths_m) in chunks.iter().enumerate() {
+            add(&mut sums, depths_m, (chunk * LANES) as f32, &HEADS[LANES], line);
+        }
+        if rest > 0 {
+            add(&mut sums, last, (chunks.len() * LANES) as f32, &HEADS[rest], line);
+        }
+        let scale = offset * offset;
+        let [w0, w1, w2, t0, t1] = sums.map(|lanes| scale * f64::from(lanes.iter().sum::<f32>()));
+        let product = |p: usize, q: usize| {
+            let ([p0, q0], [ps, qs]) = ([first[p], first[q]], [steps[p], steps[q]]);
+            p0 * q0 * w0 + (p0 * qs + q0 * ps) * w1 + ps * qs * w2
         };
-        let (chunks, rest) = row.as_chunks::<LANES>();
-        for (chunk, depths) in chunks.iter().enumerate() {
-            let base = (chunk * LANES) as f32;
-            for (lane, &depth_m) in depths.iter().enumerate() {
-                pixel(lane, base + lane as f32, depth_m);
-            }
-        }
-        let base = (chunks.len() * LANES) as f32;
-        for (lane, &depth_m) in rest.iter().enumerate() {
-            pixel(lane, base + lane as f32, depth_m);
-        }
-        for (total, sums) in totals.iter_mut().zip(&sums) {
-            *total += f64::from(sums.iter().sum::<f32>());
+        let right = |p: usize| first[p] * t0 + steps[p] * t1;
+        let terms = [
+            product(0, 0),
+            product(1, 1),
+            product(2, 2),
+            product(0, 1),
+            product(1, 2),
+            product(2, 0),
+            right(0),
+            right(1),
+            right(2),
+        ];
+        for (total, term) in totals.iter_mut().zip(terms) {
+            *total += term;
         }
     }
     totals
+}
+
+/// Adds eight pixels to sums over a row: weights by the place's power 0, 1, 2, and weights times
+/// targets by the power 0, 1. `line` is the inverse depth at place 0, its step, one over the distance
+/// at which pixels hardly count, and what missing ones count.
+#[inline(always)]
+fn add(
+    sums: &mut [Lanes; 5],
+    depths_m: &Lanes,
+    base: f32,
+    counts: &Lanes,
+    [first_w, step_w, per_cap, missing]: [f32; 4],
+) {
+    let at = each(|lane| base + RAMP[lane]);
+    let shares = each(|lane| if depths_m[lane] < 0.0 { missing } else { 1.0 });
+    let depths_m = each(|lane| depths_m[lane].abs());
+    let errors =
+        each(|lane| ((first_w + at[lane] * step_w) * depths_m[lane] - 1.0) * per_cap);
+    let calm = each(|lane| 1.0 / (1.0 + errors[lane] * errors[lane]));
+    let targets =
+        each(|lane| shares[lane] * counts[lane] * calm[lane] * calm[lane] * depths_m[lane]);
+    let weights = each(|lane| targets[lane] * depths_m[lane]);
+    let [w0, w1, w2, t0, t1] = sums;
+    *w0 = each(|lane| w0[lane] + weights[lane]);
+    *t0 = each(|lane| t0[lane] + targets[lane]);
+    let weights_at = each(|lane| weights[lane] * at[lane]);
+    *w1 = each(|lane| w1[lane] + weights_at[lane]);
+    *w2 = each(|lane| w2[lane] + weights_at[lane] * at[lane]);
+    *t1 = each(|lane| t1[lane] + targets[lane] * at[lane]);
 }

@@ -4,15 +4,15 @@ use probe::Probe;
 
 use super::delaunay::Delaunay;
 use super::fit::fit;
-use super::flips::flip_round;
+use super::flips::Flips;
 use super::guide::median_of_nine;
-use super::scan::{LiftedPlane, Scanned, scan};
+use super::scan::{Count, LiftedPlane, Scanned, Sheet, scan, worst_pixel};
 use super::thin::thin;
 use crate::DepthEvent;
-use crate::image::FilledImage;
+use crate::image::{FilledImage, Pixel};
 use crate::reduce::Stop;
 use crate::reduce::heap::IndexedHeap;
-use crate::triangulate::ImageMesh;
+use crate::triangulate::{ImageMesh, orient};
 
 /// How the project's own reduction chooses.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -26,6 +26,8 @@ pub struct InverseDepth {
     pub edge_on: f64,
     /// Vertices are chosen by a median of nine pixels, which lone outliers do not get through.
     pub median: bool,
+    /// Of faces above 4,096 pixels every second row is looked at, above 16,384 every fourth.
+    pub skip_rows: bool,
     /// Rounds in which sides are turned.
     pub flip_rounds: usize,
     /// How much the distance of a missing pixel counts, from 0 to 1: it was never measured, and lies at
@@ -43,6 +45,7 @@ impl Default for InverseDepth {
             sum_weight: 0.7,
             edge_on: 0.1,
             median: true,
+            skip_rows: true,
             flip_rounds: 2,
             fit_m: 0.05,
             missing_weight: 0.02,
@@ -65,6 +68,18 @@ impl InverseDepth {
         if (count as f64) < COARSE { (4 * count).min(2 * COARSE as usize) } else { count }
     }
 
+    /// Of how many rows of a face one is looked at while vertices are put in, by twice its area.
+    fn stride_of(&self, doubled_area: i64) -> usize {
+        let [half, quarter] = [8_192, 32_768];
+        if !self.skip_rows || doubled_area < half {
+            1
+        } else if doubled_area < quarter {
+            2
+        } else {
+            4
+        }
+    }
+
     /// Vertices at measured depths, chosen by their distance alone: what a bound on the error asks for.
     fn exact() -> Self {
         Self {
@@ -72,6 +87,7 @@ impl InverseDepth {
             sum_weight: 0.0,
             edge_on: 0.0,
             median: false,
+            skip_rows: false,
             flip_rounds: 0,
             fit_m: 0.0,
             missing_weight: 1.0,
@@ -103,14 +119,11 @@ where
 {
     let exact = InverseDepth::exact();
     let options = if stop.error_m().is_some() { &exact } else { options };
-    let signed_m = (options.missing_weight < 1.0).then(|| signed(image, image.depths_m()));
-    let signed_m = signed_m.as_deref().unwrap_or(image.depths_m());
-    let smooth = options.median.then(|| {
-        let median = median_of_nine(image);
-        if options.missing_weight < 1.0 { signed(image, &median) } else { median }
-    });
-    let guide = smooth.as_deref().unwrap_or(signed_m);
-    let mut grown = Grown::new(image, guide, signed_m, options);
+    let signed = options.missing_weight < 1.0;
+    let sheet = Sheet::new(image, image.depths_m().to_vec(), signed);
+    let smooth = options.median.then(|| Sheet::new(image, median_of_nine(image), signed));
+    let guide = smooth.as_ref().unwrap_or(&sheet);
+    let mut grown = Grown::new(image, guide, &sheet, options);
     let mut steps: Vec<usize> = ladder.to_vec();
     steps.sort_unstable_by(|a, b| b.cmp(a));
     // Few vertices are chosen from more of them.
@@ -127,12 +140,11 @@ where
         if most.is_some_and(|most| vertices >= most) {
             break;
         }
-        let Some(triangle) = grown.worst(stop.error_m().unwrap_or(0.0)) else { break };
-        let Scanned { worst, worst_m, .. } = grown.scans[triangle as usize];
-        grown.insert(triangle);
+        let Some((triangle, pixel)) = grown.worst(stop.error_m().unwrap_or(0.0)) else { break };
+        let error_m = f64::from(grown.scans[triangle as usize].worst_m);
+        grown.insert(triangle, pixel);
         if probe.on() {
-            let error_m = f64::from(worst_m);
-            probe.emit(DepthEvent::Inserted { pixel: worst, error_m, vertices: vertices + 1 });
+            probe.emit(DepthEvent::Inserted { pixel, error_m, vertices: vertices + 1 });
         }
     }
     if options.fit_m > 0.0 {
@@ -141,8 +153,10 @@ where
     if let Some(count) = count.filter(|&count| count < grown.mesh.pixels.len()) {
         grown.thin(count, probe);
     }
+    let mut flips = None;
     for round in 0..options.flip_rounds {
-        let sides = flip_round(image, signed_m, &mut grown.mesh, &grown.inverse, options);
+        let start = || Flips::new(image, &sheet, &grown.mesh, &grown.inverse, options);
+        let sides = flips.get_or_insert_with(start).round(&mut grown.mesh);
         probe.emit(DepthEvent::Flipped { round, sides });
     }
     if options.fit_m > 0.0 && options.flip_rounds > 0 {
@@ -151,19 +165,12 @@ where
     grown.image_mesh()
 }
 
-/// Depths with a minus where the pixel is missing.
-fn signed(image: &FilledImage, depths_m: &[f32]) -> Vec<f32> {
-    let sign =
-        |(at, &depth_m): (usize, &f32)| if image.is_missing(at) { -depth_m } else { depth_m };
-    depths_m.iter().enumerate().map(sign).collect()
-}
-
 struct Grown<'a> {
     image: &'a FilledImage,
-    /// What vertices are chosen by; negative where missing.
-    guide: &'a [f32],
-    /// The image's depths; negative where missing.
-    signed_m: &'a [f32],
+    /// What vertices are chosen by.
+    guide: &'a Sheet,
+    /// The image's depths.
+    sheet: &'a Sheet,
     options: &'a InverseDepth,
     mesh: Delaunay,
     /// Inverse depth of each vertex.
@@ -175,63 +182,84 @@ struct Grown<'a> {
 impl<'a> Grown<'a> {
     fn new(
         image: &'a FilledImage,
-        guide: &'a [f32],
-        signed_m: &'a [f32],
+        guide: &'a Sheet,
+        sheet: &'a Sheet,
         options: &'a InverseDepth,
     ) -> Self {
         let mesh = Delaunay::new(image.corners());
-        let at = |&pixel: &_| 1.0 / f64::from(guide[image.index(pixel)].abs());
+        let at = |&pixel: &_| 1.0 / guide.depth_m(pixel);
         let inverse = mesh.pixels.iter().map(at).collect();
         let (scans, heap) = (Vec::new(), IndexedHeap::default());
-        Self { image, guide, signed_m, options, mesh, inverse, scans, heap }
+        Self { image, guide, sheet, options, mesh, inverse, scans, heap }
     }
 
-    #[expect(clippy::cast_possible_truncation, reason = "an order, not a measurement")]
+    /// The plane of a face, and how much distances from it count.
+    fn plane_of(&self, triangle: u32) -> (LiftedPlane, f64) {
+        let pixels = self.mesh.pixels_of(triangle);
+        let inverse = self.mesh.corners[triangle as usize].map(|v| self.inverse[v as usize]);
+        let plane = LiftedPlane::through(self.image.camera(), pixels, inverse);
+        let emphasis = plane.emphasis(inverse, self.options.edge_on);
+        (plane, emphasis)
+    }
+
     fn measure_changed(&mut self) {
         self.scans.resize(self.mesh.corners.len(), Scanned::default());
-        let weight = self.options.sum_weight as f32;
-        for &triangle in &self.mesh.changed {
-            let pixels = self.mesh.pixels_of(triangle);
-            let inverse = self.mesh.corners[triangle as usize].map(|v| self.inverse[v as usize]);
-            let plane = LiftedPlane::through(self.image.camera(), pixels, inverse);
-            let emphasis = plane.emphasis(inverse, self.options.edge_on) as f32;
-            let cap_m = self.options.cap_at(self.mesh.pixels.len()) as f32 / emphasis;
-            let found = scan(
-                self.guide,
-                self.image.columns(),
-                pixels,
-                &plane,
-                cap_m,
-                self.options.missing_weight as f32,
-            );
-            let largest = found.worst_m.min(cap_m);
-            let key = if weight == 0.0 {
-                largest
-            } else {
-                largest.powf(1.0 - weight) * found.sum_m.powf(weight)
-            } * emphasis;
-            self.scans[triangle as usize] = found;
-            // A corner is off by rounding alone: such a face has nothing left to give.
-            let spent = pixels.contains(&found.worst) || found.worst_m <= 0.0;
-            self.heap.set(triangle, if spent { 0.0 } else { -key });
+        for at in 0..self.mesh.changed.len() {
+            let triangle = self.mesh.changed[at];
+            let [a, b, c] = self.mesh.pixels_of(triangle);
+            self.measure(triangle, self.options.stride_of(orient(a, b, c)));
         }
     }
 
-    /// The face to split next: the worst, if it is off by more than the bound.
-    fn worst(&self, bound_m: f64) -> Option<u32> {
-        let (key, triangle) = self.heap.first()?;
-        let worst_m = f64::from(self.scans[triangle as usize].worst_m);
-        (key < 0.0 && worst_m > bound_m).then_some(triangle)
+    #[expect(clippy::cast_possible_truncation, reason = "an order, not a measurement")]
+    fn measure(&mut self, triangle: u32, stride: usize) {
+        let (plane, emphasis) = self.plane_of(triangle);
+        let (weight, emphasis) = (self.options.sum_weight as f32, emphasis as f32);
+        let cap_m = self.options.cap_at(self.mesh.pixels.len()) as f32 / emphasis;
+        let count = Count { cap_m, missing: self.options.missing_weight as f32, stride };
+        let found = scan(self.guide, self.mesh.pixels_of(triangle), &plane, &count);
+        let largest = found.worst_m.min(cap_m);
+        let key = if weight == 0.0 {
+            largest
+        } else {
+            largest.powf(1.0 - weight) * found.sum_m.powf(weight)
+        } * emphasis;
+        self.scans[triangle as usize] = found;
+        if found.worst_m <= 0.0 && stride > 1 {
+            return self.measure(triangle, 1);
+        }
+        self.heap.set(triangle, if found.worst_m <= 0.0 { 0.0 } else { -key });
     }
 
-    fn insert(&mut self, triangle: u32) {
-        let pixel = self.scans[triangle as usize].worst;
+    /// The face to split next, and where: the worst, if it is off by more than the bound.
+    #[expect(clippy::cast_possible_truncation, reason = "weights are shares")]
+    fn worst(&mut self, bound_m: f64) -> Option<(u32, Pixel)> {
+        loop {
+            let (key, triangle) = self.heap.first()?;
+            let found = self.scans[triangle as usize];
+            if key >= 0.0 || f64::from(found.worst_m) <= bound_m {
+                return None;
+            }
+            let corners = self.mesh.pixels_of(triangle);
+            let (plane, _) = self.plane_of(triangle);
+            let missing = self.options.missing_weight as f32;
+            match worst_pixel(self.guide, corners, &plane, missing, &found) {
+                Some(pixel) if !corners.contains(&pixel) => return Some((triangle, pixel)),
+                // A corner is off by rounding alone: such a face has nothing left to give, unless
+                // rows of it were left out.
+                _ if found.stride > 1 => self.measure(triangle, 1),
+                _ => self.heap.set(triangle, 0.0),
+            }
+        }
+    }
+
+    fn insert(&mut self, triangle: u32, pixel: Pixel) {
         self.mesh.insert(pixel, triangle);
-        self.inverse.push(1.0 / f64::from(self.guide[self.image.index(pixel)].abs()));
+        self.inverse.push(1.0 / self.guide.depth_m(pixel));
     }
 
     fn thin<P: for<'e> Probe<DepthEvent<'e>>>(&mut self, count: usize, probe: &mut P) {
-        let mesh = thin(self.image, self.signed_m, &self.image_mesh(), count, self.options);
+        let mesh = thin(self.image, self.sheet, &self.image_mesh(), count, self.options);
         self.mesh = Delaunay::of_mesh(&mesh);
         self.inverse = mesh.depths_m.iter().map(|depth_m| 1.0 / depth_m).collect();
         probe.emit(DepthEvent::Thinned { mesh: &mesh });
@@ -242,7 +270,7 @@ impl<'a> Grown<'a> {
 
     fn fit<P: for<'e> Probe<DepthEvent<'e>>>(&mut self, probe: &mut P) {
         let mut mesh = self.image_mesh();
-        fit(self.image, self.signed_m, &mut mesh, self.options);
+        fit(self.image, self.sheet, &mut mesh, self.options);
         self.inverse = mesh.depths_m.iter().map(|depth_m| 1.0 / depth_m).collect();
         probe.emit(DepthEvent::Fitted { mesh: &mesh });
     }

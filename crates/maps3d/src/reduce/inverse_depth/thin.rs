@@ -1,7 +1,7 @@
 //! Vertices taken out again, where that costs least.
 
 use super::InverseDepth;
-use super::scan::{LiftedPlane, scan};
+use super::scan::{Count, LiftedPlane, Sheet, scan};
 use crate::image::FilledImage;
 use crate::reduce::heap::IndexedHeap;
 use crate::reduce::hole::{self, HoleMethod, Scratch};
@@ -19,7 +19,7 @@ const HOLE: HoleMethod = HoleMethod::ConstrainedDelaunay;
 /// of the image stay. O(pixels) for each halving.
 pub(super) fn thin(
     image: &FilledImage,
-    signed_m: &[f32],
+    sheet: &Sheet,
     mesh: &ImageMesh,
     count: usize,
     options: &InverseDepth,
@@ -27,7 +27,7 @@ pub(super) fn thin(
     let inverse: Vec<f64> = mesh.depths_m.iter().map(|depth_m| 1.0 / depth_m).collect();
     let mut thinner = Thinner {
         image,
-        signed_m,
+        sheet,
         options,
         inverse,
         cap_m: options.cap_at(count),
@@ -52,7 +52,7 @@ pub(super) fn thin(
 
 struct Thinner<'a> {
     image: &'a FilledImage,
-    signed_m: &'a [f32],
+    sheet: &'a Sheet,
     options: &'a InverseDepth,
     inverse: Vec<f64>,
     cap_m: f64,
@@ -86,8 +86,8 @@ impl Thinner<'_> {
         let at = corners.map(|corner| self.inverse[corner as usize]);
         let plane = LiftedPlane::through(self.image.camera(), pixels, at);
         let emphasis = plane.emphasis(at, self.options.edge_on);
-        let (cap_m, weight) = ((self.cap_m / emphasis) as f32, self.options.missing_weight as f32);
-        let found = scan(self.signed_m, self.image.columns(), pixels, &plane, cap_m, weight);
+        let (cap_m, missing) = ((self.cap_m / emphasis) as f32, self.options.missing_weight as f32);
+        let found = scan(self.sheet, pixels, &plane, &Count { cap_m, missing, stride: 1 });
         found.sum_m * emphasis as f32
     }
 }
