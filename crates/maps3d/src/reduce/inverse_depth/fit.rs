@@ -221,8 +221,7 @@ fn add(
     let at = each(|lane| base + RAMP[lane]);
     let shares = each(|lane| if depths_m[lane] < 0.0 { missing } else { 1.0 });
     let depths_m = each(|lane| depths_m[lane].abs());
-    let errors =
-        each(|lane| ((first_w + at[lane] * step_w) * depths_m[lane] - 1.0) * per_cap);
+    let errors = each(|lane| ((first_w + at[lane] * step_w) * depths_m[lane] - 1.0) * per_cap);
     let calm = each(|lane| 1.0 / (1.0 + errors[lane] * errors[lane]));
     let targets =
         each(|lane| shares[lane] * counts[lane] * calm[lane] * calm[lane] * depths_m[lane]);

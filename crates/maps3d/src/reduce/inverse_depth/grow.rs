@@ -24,7 +24,8 @@ pub struct InverseDepth {
     pub sum_weight: f64,
     /// Distances count more for faces seen under an angle whose sine is below this.
     pub edge_on: f64,
-    /// Vertices are chosen by a median of nine pixels, which lone outliers do not get through.
+    /// Fewer than 400 vertices are chosen by a median of nine pixels, which lone outliers do not get
+    /// through; more of them need what is narrow.
     pub median: bool,
     /// Of faces above 4,096 pixels every second row is looked at, above 16,384 every fourth.
     pub skip_rows: bool,
@@ -63,9 +64,13 @@ impl InverseDepth {
         self.cap_m * (COARSE / vertices as f64).max(1.0)
     }
 
+    fn is_few(count: usize) -> bool {
+        (count as f64) < COARSE
+    }
+
     /// How many vertices are put in where `count` are asked for: four times as many as are few.
     fn first_of(count: usize) -> usize {
-        if (count as f64) < COARSE { (4 * count).min(2 * COARSE as usize) } else { count }
+        if Self::is_few(count) { (4 * count).min(2 * COARSE as usize) } else { count }
     }
 
     /// Of how many rows of a face one is looked at while vertices are put in, by twice its area.
@@ -121,7 +126,8 @@ where
     let options = if stop.error_m().is_some() { &exact } else { options };
     let signed = options.missing_weight < 1.0;
     let sheet = Sheet::new(image, image.depths_m().to_vec(), signed);
-    let smooth = options.median.then(|| Sheet::new(image, median_of_nine(image), signed));
+    let median = options.median && stop.vertices().is_some_and(InverseDepth::is_few);
+    let smooth = median.then(|| Sheet::new(image, median_of_nine(image), signed));
     let guide = smooth.as_ref().unwrap_or(&sheet);
     let mut grown = Grown::new(image, guide, &sheet, options);
     let mut steps: Vec<usize> = ladder.to_vec();
