@@ -2,7 +2,7 @@
 
 mod common;
 
-use common::{adversarial, camera, options_of};
+use common::{adversarial, camera, cases, options_of};
 use maps3d::image::{FilledImage, PrepareOptions, prepare};
 use maps3d::quality::measure;
 use maps3d::reduce::{Method, ReduceOptions, Stop, reduce};
@@ -54,32 +54,32 @@ fn rounding_m(image: &FilledImage) -> f64 {
     1e-13 * ratio(image) * f64::from(far)
 }
 
-proptest! {
-    // 10,000 images, each with one of the reductions; half a minute of the dev profile is spread
-    // over four tests.
-    #![proptest_config(ProptestConfig::with_cases(2500))]
+/// One test for each reduction and way of ending: a thousand images each, so that none takes long.
+macro_rules! laws {
+    ($($name:ident: $picks:expr, $bounds:expr, $stop:expr;)*) => {
+        proptest! {
+            #![proptest_config(cases(1000))]
+            $(
+                #[test]
+                fn $name(image in adversarial(), pick in $picks, bound in $bounds) {
+                    every_law(&image, pick, $stop(bound))?;
+                }
+            )*
+        }
+    };
+}
 
-    #[test]
-    fn removals_keep_every_law(image in adversarial(), pick in 0..16_usize, stop in 4..60_usize) {
-        every_law(&image, pick, Stop::Vertices(stop))?;
-    }
-
-    #[test]
-    fn removals_up_to_a_bound_keep_every_law(
-        image in adversarial(), pick in 0..16_usize, bound in 0.0..3.0_f64,
-    ) {
-        every_law(&image, pick, Stop::Error(bound))?;
-    }
-
-    #[test]
-    fn insertion_keeps_every_law(image in adversarial(), stop in 4..80_usize) {
-        every_law(&image, 16, Stop::Vertices(stop))?;
-    }
-
-    #[test]
-    fn insertion_up_to_a_bound_keeps_every_law(image in adversarial(), bound in 0.0..2.0_f64) {
-        every_law(&image, 17, Stop::Error(bound))?;
-    }
+laws! {
+    centroid_to_a_count: 0..4_usize, 4..60_usize, Stop::Vertices;
+    least_squares_to_a_count: 4..8_usize, 4..60_usize, Stop::Vertices;
+    vertical_least_squares_to_a_count: 8..12_usize, 4..60_usize, Stop::Vertices;
+    quadrics_to_a_count: 12..16_usize, 4..60_usize, Stop::Vertices;
+    insertion_to_a_count: 16..17_usize, 4..80_usize, Stop::Vertices;
+    centroid_to_a_bound: 0..4_usize, 0.0..3.0_f64, Stop::Error;
+    least_squares_to_a_bound: 4..8_usize, 0.0..3.0_f64, Stop::Error;
+    vertical_least_squares_to_a_bound: 8..12_usize, 0.0..3.0_f64, Stop::Error;
+    quadrics_to_a_bound: 12..16_usize, 0.0..3.0_f64, Stop::Error;
+    insertion_to_a_bound: 16..18_usize, 0.0..2.0_f64, Stop::Error;
 }
 
 fn every_law(image: &DepthImage, pick: usize, stop: Stop) -> Result<(), TestCaseError> {
@@ -132,7 +132,7 @@ fn every_law(image: &DepthImage, pick: usize, stop: Stop) -> Result<(), TestCase
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig::with_cases(300))]
+    #![proptest_config(cases(300))]
 
     #[test]
     fn the_full_grid_holds_every_point(image in adversarial()) {

@@ -5,6 +5,12 @@ use maps3d::reduce::{Contribution, HoleMethod, InverseDepth, Method, ReduceOptio
 use proptest::prelude::*;
 use sensing::{Camera, DepthImage};
 
+/// So many cases, or as many as `PROPTEST_CASES` says.
+pub fn cases(usual: u32) -> ProptestConfig {
+    let asked = std::env::var("PROPTEST_CASES").ok().and_then(|cases| cases.parse().ok());
+    ProptestConfig::with_cases(asked.unwrap_or(usual))
+}
+
 /// A camera for an image of so many columns.
 pub fn camera(columns: usize) -> Camera {
     let f = columns.max(2) as f64 * 0.9;

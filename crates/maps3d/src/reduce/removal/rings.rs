@@ -38,6 +38,17 @@ struct Vertex {
     border: bool,
 }
 
+impl Vertex {
+    /// A vertex of which nothing is known yet.
+    const BLANK: Self = Self {
+        ring: [0; INLINE],
+        point_in_camera: [0.0; 3],
+        pixel: [0; 2],
+        length: 0,
+        border: false,
+    };
+}
+
 fn class_of(length: usize) -> usize {
     length.next_power_of_two().trailing_zeros() as usize
 }
@@ -53,14 +64,7 @@ impl Rings {
     /// The grid of all pixels (\[Mos15\] 3.4). O(pixels).
     pub fn grid(image: &FilledImage) -> Self {
         let (columns, rows) = (image.columns(), image.rows());
-        let blank = Vertex {
-            ring: [0; INLINE],
-            point_in_camera: [0.0; 3],
-            pixel: [0; 2],
-            length: 0,
-            border: false,
-        };
-        let mut vertices = vec![blank; image.pixels()];
+        let mut vertices = vec![Vertex::BLANK; image.pixels()];
         const AROUND: [[isize; 2]; 6] = [[1, 0], [1, 1], [0, 1], [-1, 0], [-1, -1], [0, -1]];
         for row in 0..rows {
             for column in 0..columns {
@@ -91,15 +95,8 @@ impl Rings {
 
     /// The rings of any planar triangulation of the image; vertices keep their numbers. O(faces).
     pub fn of_mesh(image: &FilledImage, mesh: &ImageMesh) -> Self {
-        let blank = Vertex {
-            ring: [0; INLINE],
-            point_in_camera: [0.0; 3],
-            pixel: [0; 2],
-            length: 0,
-            border: false,
-        };
         let mut rings = Self {
-            vertices: vec![blank; mesh.pixels.len()],
+            vertices: vec![Vertex::BLANK; mesh.pixels.len()],
             columns: image.columns(),
             rows: image.rows(),
             pool: Vec::new(),
