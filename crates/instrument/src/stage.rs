@@ -13,7 +13,7 @@ use rerun::{
 
 use crate::InstrumentError;
 use crate::columns::{Rgba, VARIANT, fixed};
-use crate::recording::{ABOUT, METRICS};
+use crate::recording::{ABOUT, METRICS, RESULT};
 
 /// A recording's stream, and the file that it goes to.
 pub(crate) struct Stage {
@@ -100,6 +100,21 @@ impl Stage {
     pub fn metrics(&self, metrics: &serde_json::Value) -> Result<(), InstrumentError> {
         let json = TextDocument::new(metrics.to_string()).with_media_type("application/json");
         fixed(&self.stream, &METRICS.into(), &json)
+    }
+
+    /// Ends the file with its result (Markdown) and its metrics, unless something was refused before.
+    pub fn finish(
+        &self,
+        refusal: Option<InstrumentError>,
+        result: String,
+        metrics: &serde_json::Value,
+    ) -> Result<(), InstrumentError> {
+        if let Some(refusal) = refusal {
+            return Err(refusal);
+        }
+        self.text(RESULT, result)?;
+        self.metrics(metrics)?;
+        self.end()
     }
 
     /// Ends the file properly, even where others still hold the stream.

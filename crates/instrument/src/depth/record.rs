@@ -11,7 +11,6 @@ use probe::Probe;
 
 use super::{draw, page};
 use crate::columns::fixed;
-use crate::recording::RESULT;
 use crate::stage::Stage;
 use crate::{InstrumentError, layout, palette};
 
@@ -94,16 +93,11 @@ impl DepthRecording {
     /// # Errors
     /// The first refusal of anything that was to be recorded.
     pub fn finish(
-        mut self,
+        self,
         result: String,
         metrics: &serde_json::Value,
     ) -> Result<(), InstrumentError> {
-        if let Some(refusal) = self.refusal.take() {
-            return Err(refusal);
-        }
-        self.stage.text(RESULT, result)?;
-        self.stage.metrics(metrics)?;
-        self.stage.end()
+        self.stage.finish(self.refusal, result, metrics)
     }
 
     fn at(&mut self, vertices: usize) {

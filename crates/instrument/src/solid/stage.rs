@@ -7,7 +7,6 @@ use rerun::{Color, LineStrips3D, Mesh3D, Points3D};
 use solid::{Label, Point3, Polyhedron};
 
 use crate::columns::{Rgba, fixed, rgb, rgba};
-use crate::recording::RESULT;
 use crate::stage::Stage;
 use crate::{InstrumentError, layout, palette};
 
@@ -109,16 +108,11 @@ impl SolidStage {
 
     /// Ends the recording with its result; `metrics` is kept as JSON.
     pub(super) fn finish(
-        mut self,
+        self,
         result: String,
         metrics: &serde_json::Value,
     ) -> Result<(), InstrumentError> {
-        if let Some(refusal) = self.refusal.take() {
-            return Err(refusal);
-        }
-        self.stage.text(RESULT, result)?;
-        self.stage.metrics(metrics)?;
-        self.stage.end()
+        self.stage.finish(self.refusal, result, metrics)
     }
 }
 
