@@ -1,23 +1,12 @@
 //! `driftlab mesh polyhedron`, as a user meets it.
 
-use std::path::Path;
-use std::process::Output;
+mod desk;
 
-use assert_cmd::Command;
-use serde_json::Value;
-
-fn driftlab(folder: &Path, arguments: &[&str]) -> Output {
-    let mut command = Command::cargo_bin("driftlab").expect("it is built");
-    command.current_dir(folder).args(arguments).output().expect("it starts")
-}
-
-fn json(output: &Output) -> Value {
-    assert!(output.status.success(), "{}", String::from_utf8_lossy(&output.stderr));
-    serde_json::from_slice(&output.stdout).expect("one JSON object and nothing else")
-}
+use desk::{Desk, code, json, stderr};
 
 /// A wall at 2 m, a box at 1.5 m, and a hole without readings, in millimetres.
-fn frame(folder: &Path) {
+fn framed() -> Desk {
+    let desk = Desk::new("");
     let mut bytes = b"P5 80 60 65535\n".to_vec();
     for i in 0..80 * 60_u16 {
         let (c, r) = (i % 80, i / 80);
@@ -28,36 +17,29 @@ fn frame(folder: &Path) {
         };
         bytes.extend(level.to_be_bytes());
     }
-    std::fs::write(folder.join("frame.pgm"), bytes).expect("writable");
+    std::fs::write(desk.path("frame.pgm"), bytes).expect("writable");
+    desk
 }
 
 const CAMERA: &str = "70,70,39.5,29.5";
 
+const METHODS: [&str; 5] =
+    ["centroid", "least-squares", "least-squares-vertical", "quadric", "inverse-depth"];
+
+/// What the command says of the frame with some options.
+fn polyhedron(desk: &Desk, options: &[&str]) -> serde_json::Value {
+    let mut arguments = vec!["mesh", "polyhedron", "frame.pgm", "--camera", CAMERA, "--json"];
+    arguments.extend(options);
+    json(&desk.driftlab(&arguments))
+}
+
 #[test]
 fn a_depth_image_becomes_a_valid_polyhedron() {
-    let folder = tempfile::tempdir().expect("a folder");
-    frame(folder.path());
-    for method in
-        ["centroid", "least-squares", "least-squares-vertical", "quadric", "inverse-depth"]
-    {
+    let desk = framed();
+    for method in METHODS {
         let out = format!("{method}.ply");
-        let told = json(&driftlab(
-            folder.path(),
-            &[
-                "mesh",
-                "polyhedron",
-                "frame.pgm",
-                "--camera",
-                CAMERA,
-                "--reduce",
-                method,
-                "--vertices",
-                "60",
-                "-o",
-                &out,
-                "--json",
-            ],
-        ));
+        let told = polyhedron(&desk, &["--reduce", method, "--vertices", "60", "-o", &out]);
+        assert_eq!(told["output"], out);
         for key in ["closed", "manifold"] {
             assert_eq!(told[key], true, "{method} {key}");
         }
@@ -81,7 +63,7 @@ fn a_depth_image_becomes_a_valid_polyhedron() {
             assert!(told[key].is_number(), "{method} {key}");
         }
         assert!(told["mesh_vertices"].as_u64().expect("a count") <= 60);
-        let info = json(&driftlab(folder.path(), &["mesh", "info", &out, "--json"]));
+        let info = json(&desk.driftlab(&["mesh", "info", &out, "--json"]));
         for key in ["vertices", "faces", "obstacle_faces", "frontier_faces", "closed"] {
             assert_eq!(info[key], told[key], "{method} {key}");
         }
@@ -90,59 +72,32 @@ fn a_depth_image_becomes_a_valid_polyhedron() {
 
 #[test]
 fn a_bound_on_the_error_and_on_what_lies_outside_hold() {
-    let folder = tempfile::tempdir().expect("a folder");
-    frame(folder.path());
-    let bounded = json(&driftlab(
-        folder.path(),
-        &["mesh", "polyhedron", "frame.pgm", "--camera", CAMERA, "--error", "0.01", "--json"],
-    ));
+    let desk = framed();
+    let bounded = polyhedron(&desk, &["--error", "0.01"]);
     assert!(bounded["max_m"].as_f64().expect("a distance") <= 0.0101);
-    let inside = json(&driftlab(
-        folder.path(),
-        &[
-            "mesh",
-            "polyhedron",
-            "frame.pgm",
-            "--camera",
-            CAMERA,
-            "--vertices",
-            "40",
-            "--conservative",
-            "0.02",
-            "--json",
-        ],
-    ));
-    assert!(inside["outside_max_m"].as_f64().expect("a distance") <= 0.02 + 1e-9);
+    for method in METHODS {
+        for bound in ["0", "0.02"] {
+            let options = ["--reduce", method, "--vertices", "40", "--conservative", bound];
+            let outside_m = polyhedron(&desk, &options)["outside_max_m"].as_f64();
+            let bound_m: f64 = bound.parse().expect("a number");
+            assert!(outside_m.expect("a distance") <= bound_m + 1e-9, "{method}: {outside_m:?}");
+        }
+    }
 }
 
 #[test]
 fn the_recording_holds_every_kind_of_event() {
-    let folder = tempfile::tempdir().expect("a folder");
-    frame(folder.path());
+    let desk = framed();
     let mut seen = std::collections::BTreeSet::new();
     for (method, more) in [("centroid", None), ("inverse-depth", Some("0.5"))] {
         let record = format!("{method}.rrd");
-        let mut arguments = vec![
-            "mesh",
-            "polyhedron",
-            "frame.pgm",
-            "--camera",
-            CAMERA,
-            "--reduce",
-            method,
-            "--vertices",
-            "30",
-            "--ladder",
-            "200,100,20",
-            "--record",
-            &record,
-            "--json",
-        ];
+        let mut options = vec!["--reduce", method, "--vertices", "30", "--ladder", "200,100,20"];
+        options.extend(["--record", &record]);
         if let Some(bound) = more {
-            arguments.extend(["--conservative", bound]);
+            options.extend(["--conservative", bound]);
         }
-        let told = json(&driftlab(folder.path(), &arguments));
-        let held = json(&driftlab(folder.path(), &["inspect", &record, "--json"]));
+        let told = polyhedron(&desk, &options);
+        let held = json(&desk.driftlab(&["inspect", &record, "--json"]));
         assert_eq!(held["metrics"]["volume_m3"], told["volume_m3"]);
         for event in held["events"].as_array().expect("a list") {
             seen.insert(event["variant"].as_str().expect("a name").to_owned());
@@ -155,29 +110,32 @@ fn the_recording_holds_every_kind_of_event() {
 
 #[test]
 fn bad_input_gets_one_message_and_leaves_nothing() {
-    let folder = tempfile::tempdir().expect("a folder");
-    frame(folder.path());
-    std::fs::write(folder.path().join("short.pgm"), b"P5 80 60 65535\nshort").expect("writable");
-    std::fs::write(folder.path().join("what.txt"), b"hello").expect("writable");
+    let desk = framed();
+    desk.put("short.pgm", "P5 80 60 65535\nshort");
+    desk.put("what.txt", "hello");
     for (arguments, words) in [
         (vec!["missing.png"], "missing.png"),
         (vec!["short.pgm"], "byte 15: found 5 bytes"),
         (vec!["what.txt"], "no known kind of depth image"),
         (vec!["frame.pgm", "--crop", "30"], "80 x 60 pixels, of which 30 are cropped"),
-        (vec!["frame.pgm", "--vertices", "3"], "vertices is 3"),
-        (vec!["frame.pgm", "--far", "0"], "far_m is 0"),
+        (vec!["frame.pgm", "--crop", "18446744073709551615"], "are cropped on each side"),
+        (vec!["frame.pgm", "--vertices", "3"], "--vertices: found 3"),
+        (vec!["frame.pgm", "--error", "-1"], "--error: found -1"),
+        (vec!["frame.pgm", "--far", "0"], "--far: found 0"),
+        (vec!["frame.pgm", "--conservative", "0.1"], "--vertices <N>|--error <M>"),
+        (vec!["frame.pgm", "--reduce", "magic", "--vertices", "9"], "'magic'"),
         (vec!["frame.pgm", "--camera", "0,1,2,3"], "fx 0"),
         (vec!["frame.pgm", "--depth-scale", "0"], "a scale of 0"),
     ] {
         let mut all = vec!["mesh", "polyhedron"];
         all.extend(&arguments);
         all.extend(["-o", "out.ply", "-q"]);
-        let output = driftlab(folder.path(), &all);
-        let text = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {text}");
+        let output = desk.driftlab(&all);
+        let text = stderr(&output);
+        assert_eq!(code(&output), 2, "{arguments:?}: {text}");
         assert!(text.contains(words), "{arguments:?}: {text}");
         assert!(output.stdout.is_empty());
-        assert!(!folder.path().join("out.ply").exists());
+        assert!(!desk.path("out.ply").exists());
     }
 }
 
@@ -187,9 +145,9 @@ const ROOM: &str = "name = \"small\"\n[depth]\ncrop = 2\n[room]\ncolumns = 64\nr
 
 #[test]
 fn a_ladder_shows_every_method_at_every_number() {
-    let folder = tempfile::tempdir().expect("a folder");
-    std::fs::write(folder.path().join("room.toml"), ROOM).expect("writable");
-    let told = json(&driftlab(folder.path(), &["mesh", "ladder", "room.toml", "--json"]));
+    let desk = framed();
+    desk.put("room.toml", ROOM);
+    let told = json(&desk.driftlab(&["mesh", "ladder", "room.toml", "--json"]));
     let rungs: Vec<(String, u64)> = told["rungs"]
         .as_array()
         .expect("a list")
@@ -203,7 +161,7 @@ fn a_ladder_shows_every_method_at_every_number() {
         .iter()
         .flat_map(|method| [200, 50, 12].map(|count| ((*method).to_owned(), count)));
     assert_eq!(rungs, expected.collect::<Vec<_>>());
-    let held = json(&driftlab(folder.path(), &["inspect", "recordings/small.rrd", "--json"]));
+    let held = json(&desk.driftlab(&["inspect", "recordings/small.rrd", "--json"]));
     assert_eq!(held["metrics"]["rungs"], told["rungs"]);
     let paths: Vec<&str> = held["entities"]
         .as_array()
@@ -218,7 +176,6 @@ fn a_ladder_shows_every_method_at_every_number() {
         }
     }
     // Any image of the user's, too.
-    frame(folder.path());
     let arguments = [
         "mesh",
         "ladder",
@@ -230,7 +187,7 @@ fn a_ladder_shows_every_method_at_every_number() {
         "a.rrd",
         "--json",
     ];
-    assert_eq!(json(&driftlab(folder.path(), &arguments))["file"], "frame.pgm");
+    assert_eq!(json(&desk.driftlab(&arguments))["file"], "frame.pgm");
     // What is there is not replaced, and what is wrong leaves nothing.
     for (text, arguments, words) in [
         (ROOM, vec!["--record", "a.rrd"], "a.rrd: the file exists already"),
@@ -238,13 +195,13 @@ fn a_ladder_shows_every_method_at_every_number() {
         (&ROOM.replace("crop = 2", "crop = 30"), vec!["--record", "b.rrd"], "30 are cropped"),
         (&ROOM.replace("centroid", "middle"), vec!["--record", "b.rrd"], "room.toml:8:11"),
     ] {
-        std::fs::write(folder.path().join("room.toml"), text).expect("writable");
+        desk.put("room.toml", text);
         let mut all = vec!["mesh", "ladder", "room.toml", "-q"];
         all.extend(&arguments);
-        let output = driftlab(folder.path(), &all);
-        let text = String::from_utf8_lossy(&output.stderr);
-        assert_eq!(output.status.code(), Some(2), "{arguments:?}: {text}");
+        let output = desk.driftlab(&all);
+        let text = stderr(&output);
+        assert_eq!(code(&output), 2, "{arguments:?}: {text}");
         assert!(text.contains(words), "{arguments:?}: {text}");
-        assert!(!folder.path().join("b.rrd").exists());
+        assert!(!desk.path("b.rrd").exists());
     }
 }

@@ -97,7 +97,7 @@ pub(super) enum Command {
     Report(ReportArgs),
     /// Pose-graph files: tell, optimise, compare, convert, make up
     Graph(GraphArgs),
-    /// Meshes: tell, combine, reduce
+    /// Meshes: make them of depth images, tell, reduce, combine, fill with tetrahedra
     Mesh(MeshArgs),
     /// Tell what a recording holds: entities, timelines, rows, events, final metrics
     Inspect(InspectArgs),

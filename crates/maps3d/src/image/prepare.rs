@@ -69,7 +69,7 @@ pub fn prepare(image: &DepthImage, options: &PrepareOptions) -> Result<FilledIma
         return Err(Maps3dError::ImageShape { depths: image.depths_m.len(), columns });
     }
     let least = 2;
-    let left = |side: usize| side.checked_sub(2 * crop).filter(|left| *left >= least);
+    let left = |side: usize| side.checked_sub(crop.saturating_mul(2)).filter(|left| *left >= least);
     let sizes = (left(columns), left(rows));
     let (Some(width @ ..=LARGEST_SIDE), Some(height @ ..=LARGEST_SIDE)) = sizes else {
         return Err(Maps3dError::ImageSize { columns, rows, crop, least, most: LARGEST_SIDE });

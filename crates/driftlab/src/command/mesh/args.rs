@@ -1,10 +1,14 @@
 //! What can be typed after `driftlab mesh`.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::{Args, Subcommand, ValueEnum};
+use serde_json::Value;
 
+use super::super::failure::Failure;
+use super::super::files::free;
 use super::depth_args::{DepthArgs, DepthFileArgs};
+use super::output::Target;
 
 #[derive(Debug, Args)]
 pub(in crate::command) struct MeshArgs {
@@ -54,11 +58,16 @@ pub(super) enum MeshCommand {
     Boolean(BooleanArgs),
     /// Make the local volume of a depth image: a small, closed, labelled polyhedron
     #[command(
+        allow_negative_numbers = true,
         long_about = "Make the local volume of a depth image: a small, closed, labelled polyhedron.\n\n\
             The image is cropped, its gaps are filled at the far distance, it is triangulated, \
             reduced, labelled and joined to the camera. Faces are obstacle or frontier: over missing \
             data, across depth gaps, and towards the camera. Distances are those of the measured \
-            points from the plane of their face, and along their rays.",
+            points from the plane of their face, and along their rays. --json tells vertices, faces, \
+            obstacle_faces, frontier_faces, closed, oriented, manifold, self_intersecting, defects, \
+            volume_m3, area_by_label_m2, rms_m, p95_m, max_m, along_rays, uncovered_share, \
+            outside_max_m (how far the surface reaches beyond the measured one), and secs_read, \
+            secs_triangulate, secs_reduce, secs_polyhedron.",
         after_help = "Examples:\n  \
             driftlab mesh polyhedron depth.png --camera 525,525,319.5,239.5 --vertices 684 -o view.ply\n  \
             driftlab mesh polyhedron depth.png --depth-scale 5000 --reduce least-squares --vertices 113\n  \
@@ -68,6 +77,7 @@ pub(super) enum MeshCommand {
     Polyhedron(PolyhedronArgs),
     /// Reduce one depth image further and further by several methods, in one recording
     #[command(
+        allow_negative_numbers = true,
         long_about = "Reduce one depth image further and further by several methods, in one recording.\n\n\
             The config says how the image is made ready, which methods reduce it, and at which numbers \
             of vertices each is shown and measured. Without an image, a made-up room is looked at; what \
@@ -120,15 +130,8 @@ pub(super) struct ReduceArgs {
     /// Stop at this many faces
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(super) faces: usize,
-    /// Where to write the result: .ply, .obj, .stl or .off
-    #[arg(short, long, value_name = "OUT")]
-    pub(super) output: Option<PathBuf>,
-    /// Record every step for the Rerun viewer
-    #[arg(long, value_name = "FILE.rrd")]
-    pub(super) record: Option<PathBuf>,
-    /// Replace files that are there already
-    #[arg(long)]
-    pub(super) force: bool,
+    #[command(flatten)]
+    pub(super) output: OutputArgs,
 }
 
 /// What is made of two meshes.
@@ -154,12 +157,8 @@ pub(super) struct BooleanArgs {
     pub(super) b: PathBuf,
     #[command(flatten)]
     pub(super) input: MeshInput,
-    /// Where to write the result: .ply, .obj, .stl or .off
-    #[arg(short, long, value_name = "OUT")]
-    pub(super) output: Option<PathBuf>,
-    /// Record every step for the Rerun viewer
-    #[arg(long, value_name = "FILE.rrd")]
-    pub(super) record: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) output: OutputArgs,
     /// Know for each face of the result from which face of A or B it comes (PLY)
     #[arg(long)]
     pub(super) origins: bool,
@@ -169,9 +168,55 @@ pub(super) struct BooleanArgs {
     /// Move the vertices of B by up to 1e-8 m
     #[arg(long)]
     pub(super) jitter: bool,
+}
+
+/// Where a mesh and a recording go.
+#[derive(Debug, Args)]
+pub(super) struct OutputArgs {
+    /// Where to write the result: .ply, .obj, .stl or .off
+    #[arg(short, long, value_name = "OUT")]
+    pub(super) output: Option<PathBuf>,
+    #[command(flatten)]
+    pub(super) recording: RecordArgs,
+}
+
+impl OutputArgs {
+    /// The file for the mesh, if one is asked for; nothing is in the way of it or of the recording.
+    pub(super) fn target(&self) -> Result<Option<Target>, Failure> {
+        let force = self.recording.force;
+        let target = self.output.as_deref().map(|path| Target::new(path, force)).transpose()?;
+        self.recording.check()?;
+        Ok(target)
+    }
+
+    /// Tells where things went.
+    pub(super) fn tell(&self, json: &mut Value) {
+        json["output"] = shown(self.output.as_deref());
+        json["recording"] = shown(self.recording.record.as_deref());
+    }
+}
+
+/// Where a recording goes, and what may be replaced.
+#[derive(Debug, Args)]
+pub(super) struct RecordArgs {
+    /// Record every step for the Rerun viewer
+    #[arg(long, value_name = "FILE.rrd")]
+    pub(super) record: Option<PathBuf>,
     /// Replace files that are there already
     #[arg(long)]
     pub(super) force: bool,
+}
+
+impl RecordArgs {
+    /// Sees that nothing is in the way.
+    pub(super) fn check(&self) -> Result<(), Failure> {
+        self.record.as_deref().map_or(Ok(()), |path| free(path, self.force))
+    }
+}
+
+/// A path as JSON; null where there is none.
+pub(super) fn shown(path: Option<&Path>) -> Value {
+    path.map(|path| path.display().to_string()).into()
 }
 
 /// A mesh to read.
@@ -194,15 +239,8 @@ pub(super) struct InfoArgs {
 pub(super) struct PolyhedronArgs {
     #[command(flatten)]
     pub(super) depth: DepthArgs,
-    /// Write the polyhedron: .ply, .obj, .stl or .off
-    #[arg(short, long, value_name = "OUT")]
-    pub(super) output: Option<PathBuf>,
-    /// Write a recording of every stage
-    #[arg(long, value_name = "FILE.rrd")]
-    pub(super) record: Option<PathBuf>,
-    /// Replace files that are there already
-    #[arg(long)]
-    pub(super) force: bool,
+    #[command(flatten)]
+    pub(super) output: OutputArgs,
 }
 
 #[derive(Debug, Args)]
@@ -217,10 +255,6 @@ pub(super) struct TetrahedralizeArgs {
     /// Fill all that cannot be reached from outside without passing a face
     #[arg(long)]
     pub(super) enclosed: bool,
-    /// Record every step for the Rerun viewer
-    #[arg(long, value_name = "FILE.rrd")]
-    pub(super) record: Option<PathBuf>,
-    /// Replace files that are there already
-    #[arg(long)]
-    pub(super) force: bool,
+    #[command(flatten)]
+    pub(super) recording: RecordArgs,
 }

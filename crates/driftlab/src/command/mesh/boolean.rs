@@ -9,19 +9,14 @@ use solid::boolean::{JITTER_M, Options, Provenance};
 use solid::{Operation, Polyhedron, SolidError, boolean_with, jittered};
 
 use super::super::failure::Failure;
-use super::super::files::free;
 use super::super::graph::numbers::listed;
 use super::super::out::Out;
 use super::args::{BooleanArgs, OperationName};
 use super::input;
-use super::output::Target;
 use super::told::Told;
 
 pub(super) fn boolean(args: &BooleanArgs, out: &Out) -> Result<(), Failure> {
-    let target = args.output.as_deref().map(|path| Target::new(path, args.force)).transpose()?;
-    if let Some(record) = &args.record {
-        free(record, args.force)?;
-    }
+    let target = args.output.target()?;
     let a = input::mesh(&args.a, args.input.weld, out)?;
     let b = input::mesh(&args.b, args.input.weld, out)?;
     let moved = args.jitter.then(|| jittered(&b.mesh, 1, JITTER_M));
@@ -40,7 +35,7 @@ pub(super) fn boolean(args: &BooleanArgs, out: &Out) -> Result<(), Failure> {
         )));
     }
     let options = Options { provenance, clean_m: args.clean, ..Options::default() };
-    let mut recording = match &args.record {
+    let mut recording = match &args.output.recording.record {
         Some(path) => Some(record(path, operation, args)?),
         None => None,
     };
@@ -103,8 +98,7 @@ fn tell(
     if let Some(recording) = recording {
         recording.finish(&json).map_err(Failure::work)?;
     }
-    json["output"] = args.output.as_ref().map(|path| path.display().to_string()).into();
-    json["recording"] = args.record.as_ref().map(|path| path.display().to_string()).into();
+    args.output.tell(&mut json);
     let mut rows = told.rows();
     rows.push(("seconds", format!("read {secs_read:.4}, combine {secs:.4}")));
     out.result(&json, &listed(&rows))

@@ -3,11 +3,14 @@
 use std::path::PathBuf;
 use std::str::FromStr;
 
-use clap::{Args, ValueEnum};
-use maps3d::ViewOptions;
+use anyhow::anyhow;
+use clap::{ArgGroup, Args, ValueEnum};
 use maps3d::image::PrepareOptions;
 use maps3d::reduce::{HoleMethod, InverseDepth, Method, ReduceOptions, Stop};
 use maps3d::triangulate::Occlusion;
+use maps3d::{Maps3dError, ViewOptions};
+
+use super::super::failure::Failure;
 
 /// What happens to points of a cloud that share a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -81,6 +84,7 @@ pub(in crate::command) struct DepthFileArgs {
 }
 
 #[derive(Debug, Args)]
+#[command(group(ArgGroup::new("end").args(["vertices", "error"])))]
 pub(in crate::command) struct DepthArgs {
     /// The depth image: PNG of 16 bits, PGM, TIFF, PCD, PLY, or floats without a header as .raw
     pub(super) depth: PathBuf,
@@ -102,27 +106,50 @@ pub(in crate::command) struct DepthArgs {
     #[arg(long, value_name = "SHARE", default_value_t = 0.0)]
     pub(super) frontier_share: f64,
     /// How to reduce; nothing is reduced without --vertices or --error
-    #[arg(long, value_name = "METHOD", value_enum, default_value = "inverse-depth")]
+    #[arg(
+        long,
+        value_name = "METHOD",
+        value_enum,
+        default_value = "inverse-depth",
+        requires = "end"
+    )]
     pub(super) reduce: MethodName,
     /// Reduce to so many vertices
-    #[arg(long, value_name = "N", conflicts_with = "error")]
+    #[arg(long, value_name = "N")]
     pub(super) vertices: Option<usize>,
     /// Reduce as far as no vertex that is removed contributes more, or with inverse-depth as far as no
     /// pixel is farther from its face, metres
     #[arg(long, value_name = "M")]
     pub(super) error: Option<f64>,
     /// How holes are triangulated
-    #[arg(long, value_name = "METHOD", value_enum, default_value = "ear-clipping")]
+    #[arg(
+        long,
+        value_name = "METHOD",
+        value_enum,
+        default_value = "ear-clipping",
+        requires = "end"
+    )]
     pub(super) hole: HoleName,
     /// Let the reduced volume reach at most so far beyond the measured one, metres
-    #[arg(long, value_name = "M")]
+    #[arg(long, value_name = "M", requires = "end")]
     pub(super) conservative: Option<f64>,
     /// Show the mesh at these numbers of vertices in the recording
-    #[arg(long, value_name = "N,N,...", value_delimiter = ',')]
+    #[arg(long, value_name = "N,N,...", value_delimiter = ',', requires = "end")]
     pub(super) ladder: Vec<usize>,
     /// Leave the surface open, not joined to the camera
     #[arg(long)]
     pub(super) open: bool,
+}
+
+/// What is wrong with the image, or with what was typed.
+pub(super) fn refused(from: &str, error: &Maps3dError) -> Failure {
+    match error {
+        Maps3dError::Option { option, found, expected } => {
+            let flag = option.trim_end_matches("_m").replace('_', "-");
+            Failure::Input(anyhow!("--{flag}: found {found}, expected {expected}"))
+        }
+        other => Failure::Input(anyhow!("{from}: {other}")),
+    }
 }
 
 /// So many numbers with commas between.

@@ -2,7 +2,6 @@
 
 use std::time::Instant;
 
-use anyhow::anyhow;
 use instrument::{DepthRecording, DepthRecordingOptions};
 use maps3d::quality::{Quality, Spread, measure};
 use maps3d::view::volume_m3;
@@ -11,23 +10,18 @@ use probe::Probe;
 use serde_json::{Value, json};
 
 use super::super::failure::Failure;
-use super::super::files::free;
 use super::super::graph::numbers::{listed, shown};
 use super::super::out::Out;
 use super::args::PolyhedronArgs;
-use super::depth_input;
-use super::output::Target;
 use super::told::Told;
+use super::{depth_args, depth_input};
 
 pub(super) fn polyhedron(args: &PolyhedronArgs, out: &Out) -> Result<(), Failure> {
-    let target = args.output.as_deref().map(|path| Target::new(path, args.force)).transpose()?;
-    if let Some(record) = &args.record {
-        free(record, args.force)?;
-    }
+    let target = args.output.target()?;
     let depth = &args.depth;
     let path = depth.depth.display().to_string();
     let (image, secs_read) = depth_input::depth(&depth.depth, &depth.file, out)?;
-    let refused = |error: Maps3dError| Failure::Input(anyhow!("{path}: {error}"));
+    let refused = |error: Maps3dError| depth_args::refused(&path, &error);
     let options = depth.options();
     let mut clock = Clock::default();
     let made = polyhedron_with(&image, &options, &mut clock).map_err(refused)?;
@@ -72,7 +66,7 @@ pub(super) fn polyhedron(args: &PolyhedronArgs, out: &Out) -> Result<(), Failure
              {joined:.4}"
         ),
     ));
-    if let Some(record) = &args.record {
+    if let Some(record) = &args.output.recording.record {
         // Once more, and watched: what is written down must not count as time.
         let recording = DepthRecordingOptions {
             path: record.clone(),
@@ -86,6 +80,7 @@ pub(super) fn polyhedron(args: &PolyhedronArgs, out: &Out) -> Result<(), Failure
             .finish(format!("```text\n{}```\n", listed(&rows)), &json)
             .map_err(Failure::work)?;
     }
+    args.output.tell(&mut json);
     out.result(&json, &listed(&rows))
 }
 

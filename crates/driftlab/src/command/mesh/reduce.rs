@@ -9,12 +9,10 @@ use solid::reduce::Goal;
 use solid::reduce_with;
 
 use super::super::failure::Failure;
-use super::super::files::free;
 use super::super::graph::numbers::{listed, shown};
 use super::super::out::Out;
 use super::args::ReduceArgs;
 use super::input;
-use super::output::Target;
 use super::told::Told;
 
 pub(super) fn reduce(args: &ReduceArgs, out: &Out) -> Result<(), Failure> {
@@ -24,13 +22,10 @@ pub(super) fn reduce(args: &ReduceArgs, out: &Out) -> Result<(), Failure> {
             args.error
         )));
     }
-    let target = args.output.as_deref().map(|path| Target::new(path, args.force)).transpose()?;
-    if let Some(record) = &args.record {
-        free(record, args.force)?;
-    }
+    let target = args.output.target()?;
     let read = input::mesh(&args.file, args.input.weld, out)?;
     let goal = Goal { error_m: args.error, faces: args.faces };
-    let mut recording = match &args.record {
+    let mut recording = match &args.output.recording.record {
         Some(path) => {
             let name = args.file.file_name().unwrap_or_default().to_string_lossy();
             let about = format!("`{name}` with fewer faces, within {} m.", args.error);
@@ -63,8 +58,7 @@ pub(super) fn reduce(args: &ReduceArgs, out: &Out) -> Result<(), Failure> {
     if let Some(recording) = recording {
         recording.finish(&json).map_err(Failure::work)?;
     }
-    json["output"] = args.output.as_ref().map(|path| path.display().to_string()).into();
-    json["recording"] = args.record.as_ref().map(|path| path.display().to_string()).into();
+    args.output.tell(&mut json);
     let mut rows = told.rows();
     rows.push(("faces before", read.mesh.faces().len().to_string()));
     rows.push(("error", format!("{} m at most", shown(reduced.error_m))));

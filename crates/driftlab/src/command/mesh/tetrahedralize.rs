@@ -14,14 +14,14 @@ use super::super::failure::Failure;
 use super::super::files::{free, write_whole};
 use super::super::graph::numbers::{listed, shown};
 use super::super::out::Out;
-use super::args::TetrahedralizeArgs;
+use super::args::{TetrahedralizeArgs, shown as shown_path};
 use super::input;
 
 pub(super) fn tetrahedralize(args: &TetrahedralizeArgs, out: &Out) -> Result<(), Failure> {
-    let target = args.output.as_deref().map(|path| Target::new(path, args.force)).transpose()?;
-    if let Some(record) = &args.record {
-        free(record, args.force)?;
-    }
+    let recording = &args.recording;
+    let target =
+        args.output.as_deref().map(|path| Target::new(path, recording.force)).transpose()?;
+    recording.check()?;
     let read = input::mesh(&args.file, args.input.weld, out)?;
     let holes = &read.file.hole_points;
     let inside = if args.enclosed || !holes.is_empty() {
@@ -29,7 +29,7 @@ pub(super) fn tetrahedralize(args: &TetrahedralizeArgs, out: &Out) -> Result<(),
     } else {
         Inside::Odd
     };
-    let mut recording = args.record.as_deref().map(|path| record(path, args)).transpose()?;
+    let mut recording = recording.record.as_deref().map(|path| record(path, args)).transpose()?;
     let start = Instant::now();
     let found = match &mut recording {
         Some(recording) => tetrahedralize_in(&read.mesh, &inside, recording),
@@ -60,8 +60,8 @@ pub(super) fn tetrahedralize(args: &TetrahedralizeArgs, out: &Out) -> Result<(),
         target.write(&found)?;
     }
     json["file"] = args.file.display().to_string().into();
-    json["output"] = args.output.as_ref().map(|path| path.display().to_string()).into();
-    json["recording"] = args.record.as_ref().map(|path| path.display().to_string()).into();
+    json["output"] = shown_path(args.output.as_deref());
+    json["recording"] = shown_path(args.recording.record.as_deref());
     let rows = [
         ("vertices", format!("{}, {} added", read.mesh.vertices().len(), found.steiner_points)),
         ("faces", format!("{} of {} kept", found.boundary.len(), read.mesh.faces().len())),
