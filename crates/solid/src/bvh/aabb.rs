@@ -71,7 +71,7 @@ impl Aabb {
 
     /// The middle; half-way sums do not overflow inside the envelope.
     #[inline]
-    pub(super) fn middle(&self) -> Point3 {
+    pub(crate) fn middle(&self) -> Point3 {
         nalgebra::center(&self.low, &self.high)
     }
 }

@@ -9,7 +9,7 @@ use crate::Point3;
 impl Bvh {
     /// Calls `found` with every box that touches `aabb`.
     pub fn each_touching(&self, aabb: &Aabb, mut found: impl FnMut(u32)) {
-        self.walk(
+        let _ = self.walk(
             |candidate| candidate.touches(aabb),
             |item| {
                 found(item);
@@ -20,7 +20,7 @@ impl Bvh {
 
     /// Calls `found` with every box that the segment may touch.
     pub fn each_on_segment(&self, from: &Point3, to: &Point3, mut found: impl FnMut(u32)) {
-        self.walk(
+        let _ = self.walk(
             |candidate| candidate.may_touch_segment(from, to),
             |item| {
                 found(item);
@@ -29,7 +29,13 @@ impl Bvh {
         );
     }
 
-    fn walk(&self, touches: impl Fn(&Aabb) -> bool, mut found: impl FnMut(u32) -> ControlFlow<()>) {
+    /// Calls `found` with every box for which `touches` holds, as it must for all boxes around that
+    /// one; stops where `found` breaks, and tells.
+    pub(crate) fn walk(
+        &self,
+        touches: impl Fn(&Aabb) -> bool,
+        mut found: impl FnMut(u32) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
         let mut waiting: Vec<u32> = if self.nodes.is_empty() { vec![] } else { vec![0] };
         while let Some(index) = waiting.pop() {
             let node = &self.nodes[index as usize];
@@ -42,22 +48,31 @@ impl Bvh {
                 continue;
             }
             for place in items(node) {
-                if touches(&self.boxes[place]) && found(self.items[place]).is_break() {
-                    return;
+                if touches(&self.boxes[place]) {
+                    found(self.items[place])?;
                 }
             }
         }
+        ControlFlow::Continue(())
     }
 
     /// Calls `found` with every pair of different boxes that touch, the smaller index first, each
     /// pair once; stops where `found` breaks.
-    pub fn each_pair(&self, mut found: impl FnMut(u32, u32) -> ControlFlow<()>) {
-        self.pairs_with(self, true, &mut found);
+    pub fn each_pair(&self, found: impl FnMut(u32, u32) -> ControlFlow<()>) {
+        let _ = self.pairs(found);
+    }
+
+    /// [`each_pair`](Self::each_pair), telling whether it was stopped.
+    pub(crate) fn pairs(
+        &self,
+        mut found: impl FnMut(u32, u32) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        self.pairs_with(self, true, &mut found)
     }
 
     /// Calls `found` with every box of this tree and box of `other` that touch.
     pub fn each_pair_with(&self, other: &Self, mut found: impl FnMut(u32, u32)) {
-        self.pairs_with(other, false, &mut |ours, theirs| {
+        let _ = self.pairs_with(other, false, &mut |ours, theirs| {
             found(ours, theirs);
             ControlFlow::Continue(())
         });
@@ -68,9 +83,9 @@ impl Bvh {
         other: &Self,
         same: bool,
         found: &mut impl FnMut(u32, u32) -> ControlFlow<()>,
-    ) {
+    ) -> ControlFlow<()> {
         if self.nodes.is_empty() || other.nodes.is_empty() {
-            return;
+            return ControlFlow::Continue(());
         }
         let mut waiting = vec![(0_u32, 0_u32)];
         while let Some((a, b)) = waiting.pop() {
@@ -90,13 +105,10 @@ impl Bvh {
                 }
                 (0, _) => waiting.extend([(a + 1, b), (node_a.next, b)]),
                 (_, 0) => waiting.extend([(a, b + 1), (a, node_b.next)]),
-                _ => {
-                    if self.leaf_pairs(other, same && a == b, same, a, b, found).is_break() {
-                        return;
-                    }
-                }
+                _ => self.leaf_pairs(other, same && a == b, same, a, b, found)?,
             }
         }
+        ControlFlow::Continue(())
     }
 
     /// The pairs of two leaves, or of one with itself.

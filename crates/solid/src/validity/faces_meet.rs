@@ -32,10 +32,14 @@ pub(crate) fn meet(
         1 => {
             let i = (0..3).find(common)?;
             let j = b_places.iter().position(|&place| place == a_places[i])?;
-            if apart(a, b) {
+            let (opposite_a, opposite_b) = (opposite(a, i), opposite(b, j));
+            let corner = a[i];
+            if fan_out(corner, opposite_a, opposite_b)
+                || beside(a, opposite_b)
+                || beside(b, opposite_a)
+            {
                 return None;
             }
-            let (opposite_a, opposite_b) = (opposite(a, i), opposite(b, j));
             let met = [(opposite_a, b), (opposite_b, a)];
             strongest(met.into_iter(), a, b)
         }
@@ -68,6 +72,31 @@ fn sides(a: Triangle<'_>, b: Triangle<'_>) -> [i8; 3] {
 fn apart(a: Triangle<'_>, b: Triangle<'_>) -> bool {
     let strictly = |s: [i8; 3]| s == [1; 3] || s == [-1; 3];
     strictly(sides(a, b)) || strictly(sides(b, a))
+}
+
+/// Whether an edge lies strictly on one side of a triangle's plane. What it and a corner in that plane
+/// span has nothing but the corner in common with the triangle.
+fn beside([a, b, c]: Triangle<'_>, edge: [&Point3; 2]) -> bool {
+    let [from, to] = edge.map(|p| sign(orient3(a, b, c, p)));
+    from != 0 && from == to
+}
+
+/// Whether the plane through a corner, halfway between two edges as seen from there, has one on each
+/// side by more than rounding. Cheap, and says nothing where it fails: so neighbours in a fan of many
+/// triangles that lie almost in one plane need no exact numbers.
+fn fan_out(corner: &Point3, a: [&Point3; 2], b: [&Point3; 2]) -> bool {
+    let towards = |edge: [&Point3; 2]| {
+        let middle = nalgebra::center(edge[0], edge[1]) - corner;
+        middle / middle.norm()
+    };
+    let across = towards(a) - towards(b);
+    // Differences and products of six numbers are off by less than 16 units in the last place.
+    let reach = |p: &Point3| p.coords.amax() + corner.coords.amax();
+    let above = |p: &Point3| {
+        let height = across.dot(&(p - corner));
+        if height.abs() > 1e-14 * across.lp_norm(1) * reach(p) { height } else { f64::NAN }
+    };
+    a.iter().all(|p| above(p) > 0.0) && b.iter().all(|p| above(p) < 0.0)
 }
 
 fn across_edge(
