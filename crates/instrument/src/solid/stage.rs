@@ -87,6 +87,27 @@ impl SolidStage {
         self.note(entity, sent);
     }
 
+    /// Shows the edges of a mesh at all times, thin, in the colours of the labels beside them.
+    pub(super) fn outlined(&mut self, entity: &str, mesh: &Polyhedron) {
+        for (name, label) in [("obstacle", Label::Obstacle), ("frontier", Label::Frontier)] {
+            let mut edges: Vec<[u32; 2]> = (mesh.faces().iter().zip(mesh.labels()))
+                .filter(|(_, of)| **of == label)
+                .flat_map(|(&[a, b, c], _)| [[a, b], [b, c], [c, a]])
+                .map(|[a, b]| [a.min(b), a.max(b)])
+                .collect();
+            edges.sort_unstable();
+            edges.dedup();
+            let at = |vertex: u32| short(&mesh.vertices()[vertex as usize]);
+            let shown = LineStrips3D::new(edges.iter().map(|edge| edge.map(at)))
+                .with_colors([Color::from_u32(colour(label))])
+                .with_radii([rerun::Radius::new_ui_points(0.4)]);
+            let entity = format!("{entity}/{name}");
+            if let Err(refused) = fixed(&self.stage.stream, &entity.as_str().into(), &shown) {
+                self.refusal.get_or_insert(refused);
+            }
+        }
+    }
+
     /// Shows lines.
     pub(super) fn lines(&mut self, entity: &str, ends: &[[Point3; 2]], colour: Rgba, points: f32) {
         let strips = ends.iter().map(|[from, to]| [short(from), short(to)]);

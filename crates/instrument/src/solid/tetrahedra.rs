@@ -2,7 +2,7 @@
 
 use probe::Probe;
 use serde_json::Value;
-use solid::{Point3, TetrahedraEvent};
+use solid::{Point3, Polyhedron, TetrahedraEvent};
 
 use super::SolidOptions;
 use super::stage::SolidStage;
@@ -19,23 +19,28 @@ pub struct TetrahedraRecording {
 }
 
 impl TetrahedraRecording {
-    /// Creates the file with its layout and text page.
+    /// Creates the file with its layout, its text page and the edges of the input.
     ///
     /// # Errors
     /// [`InstrumentError::Write`] where the file cannot be created.
-    pub fn create(options: &SolidOptions) -> Result<Self, InstrumentError> {
+    pub fn create(options: &SolidOptions, input: &Polyhedron) -> Result<Self, InstrumentError> {
         let page = format!(
             "{}\n\n- **the step**: red edges are those of tetrahedra that went, green those that came; the \
              white point is the one put in or taken out; the yellow lines are the segment or facet \
-             brought in\n- **the mesh**: its edges after all points, and inside in the end\n\n\
+             brought in; thin lines are the edges of the input, grey of obstacle and orange of frontier\n\
+             - **the mesh**: its edges after all points, and inside in the end\n\n\
              Step along `event`: each insertion, each flip and reconnection with what it was for, each \
              recovery, each Steiner point, inside and outside, the result.",
             options.about
         );
         let options = SolidOptions { about: page, ..options.clone() };
-        let panels: [(&str, &[&str]); 2] =
-            [("the step: went red, came green", &["step", "mesh/labels"]), ("the mesh", &["mesh"])];
-        Ok(Self { stage: SolidStage::create(&options, &panels)?, result: String::new() })
+        let panels: [(&str, &[&str]); 2] = [
+            ("the step: went red, came green", &["step", "input"]),
+            ("the mesh", &["mesh", "input"]),
+        ];
+        let mut stage = SolidStage::create(&options, &panels)?;
+        stage.outlined("input", input);
+        Ok(Self { stage, result: String::new() })
     }
 
     /// Ends the recording; `metrics` is kept as JSON.

@@ -8,7 +8,7 @@ use formats::mesh::{TetrahedraFile, write_medit, write_vtk};
 use instrument::{SolidOptions, TetrahedraRecording};
 use serde_json::json;
 use solid::tetrahedra::{Inside, tetrahedralize_in};
-use solid::{SolidError, Tetrahedra};
+use solid::{Polyhedron, SolidError, Tetrahedra};
 
 use super::super::failure::Failure;
 use super::super::files::{free, write_whole};
@@ -29,7 +29,8 @@ pub(super) fn tetrahedralize(args: &TetrahedralizeArgs, out: &Out) -> Result<(),
     } else {
         Inside::Odd
     };
-    let mut recording = recording.record.as_deref().map(|path| record(path, args)).transpose()?;
+    let mut recording =
+        recording.record.as_deref().map(|path| record(path, args, &read.mesh)).transpose()?;
     let start = Instant::now();
     let found = match &mut recording {
         Some(recording) => tetrahedralize_in(&read.mesh, &inside, recording),
@@ -72,14 +73,18 @@ pub(super) fn tetrahedralize(args: &TetrahedralizeArgs, out: &Out) -> Result<(),
     out.result(&json, &listed(&rows))
 }
 
-fn record(path: &Path, args: &TetrahedralizeArgs) -> Result<TetrahedraRecording, Failure> {
+fn record(
+    path: &Path,
+    args: &TetrahedralizeArgs,
+    input: &Polyhedron,
+) -> Result<TetrahedraRecording, Failure> {
     let file = args.file.file_name().unwrap_or_default().to_string_lossy();
     let options = SolidOptions {
         path: path.to_owned(),
         name: "tetrahedra".into(),
         about: format!("The tetrahedra of `{file}`."),
     };
-    TetrahedraRecording::create(&options).map_err(Failure::work)
+    TetrahedraRecording::create(&options, input).map_err(Failure::work)
 }
 
 /// What is wrong with the input is bad input; the rest is work that failed.
