@@ -65,7 +65,7 @@ pub struct ActiveArea {
     /// The volume seen from each vertex last, for ways through the area.
     views: IdVec<VertexId, Option<Box<LocalVolume>>>,
     open: OpenFrontier,
-    given_up: Vec<GivenUp>,
+    given_up: GivenUp,
     here: Here,
     planner: GlobalPlanner,
     aims: Aims,
@@ -83,7 +83,7 @@ impl ActiveArea {
             rings: Vec::new(),
             views: IdVec::new(),
             open: OpenFrontier::default(),
-            given_up: Vec::new(),
+            given_up: GivenUp::default(),
             here: Here::new(params.volume),
             planner: GlobalPlanner::default(),
             aims: Aims::default(),
@@ -238,14 +238,7 @@ impl ActiveArea {
     }
 
     fn measure(&mut self) {
-        let discs: Vec<(Point2, f64)> = self
-            .given_up
-            .iter()
-            .map(|place| {
-                let map_from_vertex = self.correction.pose(place.vertex);
-                (map_from_vertex.transform(&place.at_in_vertex), place.radius_m)
-            })
-            .collect();
+        let discs = self.given_up.discs(|vertex| self.correction.pose(vertex));
         self.open = OpenFrontier::of(&region_of_rings(&self.rings), &self.params.open, &discs);
     }
 
@@ -452,11 +445,10 @@ impl ExplorationMap for ActiveArea {
             if self.aims.take(at, standing.vertex, is_trip, pose) {
                 return Some(route);
             }
-            self.given_up.extend(goals.iter().map(|goal| GivenUp {
-                vertex: standing.vertex,
-                at_in_vertex: map_from_vertex.inverse_transform(goal),
-                radius_m: AIM_M,
-            }));
+            for goal in &goals {
+                let at_in_vertex = map_from_vertex.inverse_transform(goal);
+                self.given_up.add(standing.vertex, at_in_vertex, AIM_M);
+            }
             let left_m = self.open.summary().open_m;
             self.measure();
             if self.open.summary().open_m >= left_m {
@@ -464,14 +456,7 @@ impl ExplorationMap for ActiveArea {
             }
         }
         // What neither leads to cannot be reached.
-        for part in self.open.counting().flat_map(|chain| &chain.parts) {
-            let middle = Point2::from((part.from.coords + part.to.coords) * 0.5);
-            self.given_up.push(GivenUp {
-                vertex: standing.vertex,
-                at_in_vertex: map_from_vertex.inverse_transform(&middle),
-                radius_m: 0.5 * part.length_m() + 1e-6,
-            });
-        }
+        self.given_up.add_all(&self.open, standing.vertex, &map_from_vertex);
         self.measure();
         None
     }
@@ -504,7 +489,7 @@ impl ExplorationMap for ActiveArea {
         _probe: &mut dyn MapProbe,
     ) {
         let at_in_vertex = standing.vertex_from_body.transform(goal_in_body);
-        self.given_up.push(GivenUp { vertex: standing.vertex, at_in_vertex, radius_m });
+        self.given_up.add(standing.vertex, at_in_vertex, radius_m);
         self.measure();
     }
 
@@ -534,6 +519,6 @@ impl ExplorationMap for ActiveArea {
             + self.links.heap_bytes()
             + self.correction.heap_bytes()
             + self.here.heap_bytes()
-            + self.given_up.len() * size_of::<GivenUp>()
+            + self.given_up.heap_bytes()
     }
 }

@@ -42,7 +42,7 @@ pub struct CorrectedPolygons {
     /// scans there take the place of that view.
     base: (Region<Tag>, Option<VertexId>),
     open: OpenFrontier,
-    given_up: Vec<GivenUp>,
+    given_up: GivenUp,
     here: Here,
     planner: GlobalPlanner,
 }
@@ -57,7 +57,7 @@ impl CorrectedPolygons {
             region: Region::default(),
             base: (Region::default(), None),
             open: OpenFrontier::default(),
-            given_up: Vec::new(),
+            given_up: GivenUp::default(),
             here: Here::new(params.volume),
             planner: GlobalPlanner::default(),
         }
@@ -103,14 +103,7 @@ impl CorrectedPolygons {
     }
 
     fn measure(&mut self) {
-        let discs: Vec<(Point2, f64)> = self
-            .given_up
-            .iter()
-            .map(|place| {
-                let map_from_vertex = self.correction.pose(place.vertex);
-                (map_from_vertex.transform(&place.at_in_vertex), place.radius_m)
-            })
-            .collect();
+        let discs = self.given_up.discs(|vertex| self.correction.pose(vertex));
         self.open = OpenFrontier::of(&self.region, &self.params.open, &discs);
     }
 
@@ -218,16 +211,7 @@ impl ExplorationMap for CorrectedPolygons {
         let route = self.planner.route(&self.region, &self.open, &map_from_body);
         if route.is_none() {
             let map_from_vertex = self.correction.pose(standing.vertex);
-            for chain in self.open.counting() {
-                self.given_up.extend(chain.parts.iter().map(|part| {
-                    let middle = Point2::from((part.from.coords + part.to.coords) * 0.5);
-                    GivenUp {
-                        vertex: standing.vertex,
-                        at_in_vertex: map_from_vertex.inverse_transform(&middle),
-                        radius_m: 0.5 * part.length_m() + 1e-6,
-                    }
-                }));
-            }
+            self.given_up.add_all(&self.open, standing.vertex, &map_from_vertex);
             self.measure();
         }
         route
@@ -261,7 +245,7 @@ impl ExplorationMap for CorrectedPolygons {
         _probe: &mut dyn MapProbe,
     ) {
         let at_in_vertex = standing.vertex_from_body.transform(goal_in_body);
-        self.given_up.push(GivenUp { vertex: standing.vertex, at_in_vertex, radius_m });
+        self.given_up.add(standing.vertex, at_in_vertex, radius_m);
         self.measure();
     }
 
@@ -291,6 +275,6 @@ impl ExplorationMap for CorrectedPolygons {
             + self.base.0.heap_bytes()
             + self.correction.heap_bytes()
             + self.here.heap_bytes()
-            + self.given_up.len() * size_of::<GivenUp>()
+            + self.given_up.heap_bytes()
     }
 }

@@ -21,14 +21,6 @@ const LEG_M: f64 = 0.9;
 /// Points of a way so near to the robot say nothing about where it goes, metres.
 const AT_ROBOT_M: f64 = 0.05;
 
-/// A place where frontier was given up, fixed to a vertex so that it moves with its correction.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) struct GivenUp {
-    pub vertex: VertexId,
-    pub at_in_vertex: Point2,
-    pub radius_m: f64,
-}
-
 /// Candidates and ways, from a region, its open frontier and the view from here.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct GlobalPlanner {
