@@ -1,9 +1,40 @@
 //! Which vertices of the pose graph are near enough (\[Zie18\] 2.7.1, eq. 2.8).
 
-use std::collections::{BTreeSet, VecDeque};
+use std::collections::VecDeque;
 
 use posegraph::PoseGraph;
 use probe::{EdgeId, IdVec, VertexId};
+
+/// The vertices of the active area.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub(super) struct Area {
+    /// By the number of edges from the root.
+    vertices: Vec<VertexId>,
+    holds: Vec<bool>,
+}
+
+impl Area {
+    pub fn contains(&self, vertex: VertexId) -> bool {
+        self.holds.get(vertex.0 as usize).copied().unwrap_or(false)
+    }
+
+    /// Those nearest to the robot first.
+    pub fn vertices(&self) -> &[VertexId] {
+        &self.vertices
+    }
+
+    fn insert(&mut self, vertex: VertexId) -> bool {
+        let index = vertex.0 as usize;
+        if self.holds.len() <= index {
+            self.holds.resize(index + 1, false);
+        }
+        let new = !std::mem::replace(&mut self.holds[index], true);
+        if new {
+            self.vertices.push(vertex);
+        }
+        new
+    }
+}
 
 /// The edges of the graph by vertex.
 #[derive(Clone, Debug, Default)]
@@ -32,20 +63,21 @@ impl Links {
     }
 
     /// All vertices at most so many edges away.
-    pub fn within(&self, root: VertexId, edges: usize) -> BTreeSet<VertexId> {
-        let mut met = BTreeSet::from([root]);
+    pub fn within(&self, root: VertexId, edges: usize) -> Area {
+        let mut area = Area::default();
+        area.insert(root);
         let mut queue = VecDeque::from([(root, 0)]);
         while let Some((vertex, distance)) = queue.pop_front() {
             if distance == edges {
                 continue;
             }
             for &(to, ..) in self.of.get(vertex).map_or(&[][..], Vec::as_slice) {
-                if met.insert(to) {
+                if area.insert(to) {
                     queue.push_back((to, distance + 1));
                 }
             }
         }
-        met
+        area
     }
 
     /// The way with the fewest edges to a vertex that is a goal: the vertices after the root, each
@@ -56,7 +88,8 @@ impl Links {
         is_goal: impl Fn(VertexId) -> bool,
     ) -> Option<Vec<(VertexId, f64)>> {
         let mut parent: Vec<Option<(VertexId, f64)>> = vec![None; self.of.len()];
-        let mut met = BTreeSet::from([root]);
+        let mut met = Area::default();
+        met.insert(root);
         let mut queue = VecDeque::from([root]);
         while let Some(vertex) = queue.pop_front() {
             if is_goal(vertex) {

@@ -1,23 +1,22 @@
 //! The map and its answers to the trait.
 
-use std::collections::BTreeSet;
-
 use geometry::Point2;
-use geometry::planar::overlay::{Region, union_all};
+use geometry::planar::overlay::Region;
 use pose::Se2;
 use posegraph::PoseGraph;
 use probe::{EdgeId, IdVec, Probe, VertexId};
 use sensing::Scan;
 
-use super::area::Links;
+use super::area::{Area, Links};
 use super::rings::{next, region_of_rings, ring_of, twice_area_m2, winding};
 use super::unite::{United, unite};
 use super::untwist::{Splits, untwist};
+use super::walls::{box_of, settle_along, walls_near};
+use super::ways::region_inside;
 use super::{Broken, Corner, Twisted};
 use crate::correction::{Correction, CorrectionParams};
 use crate::polygons::{
     GivenUp, GlobalPlanner, Here, OpenFrontier, OpenParams, PolygonEvent, Tag, global_of,
-    region_of, with_straight_walls,
 };
 use crate::volume::{LocalVolume, VolumeParams};
 use crate::{
@@ -116,7 +115,7 @@ impl ActiveArea {
         self.correction.pose(standing.vertex) * standing.vertex_from_body
     }
 
-    fn area(&self, vertex: VertexId) -> BTreeSet<VertexId> {
+    fn area(&self, vertex: VertexId) -> Area {
         self.links.within(vertex, self.params.area_edges)
     }
 
@@ -150,15 +149,16 @@ impl ActiveArea {
         let Some(volume) = self.here.volume(vertex) else { return };
         let margin_m = self.params.volume.strict_margin_m;
         let map_from_vertex = self.correction.pose(vertex);
-        let view = ring_of(vertex, volume, &map_from_vertex, margin_m, self.scans);
+        let mut view = ring_of(vertex, volume, &map_from_vertex, margin_m, self.scans);
         if view.len() < 3 || twice_area_m2(&view) <= 0.0 {
             return;
         }
         let active = self.area(vertex);
+        self.settle_walls(vertex, &mut view, &active);
         let is_active =
-            |a: &Corner, b: &Corner| active.contains(&a.anchor) && active.contains(&b.anchor);
+            |a: &Corner, b: &Corner| active.contains(a.anchor) && active.contains(b.anchor);
         // Doubly seen space, before the union (2.7.5).
-        let touches = |ring: &[Corner]| ring.iter().any(|corner| active.contains(&corner.anchor));
+        let touches = |ring: &[Corner]| ring.iter().any(|corner| active.contains(corner.anchor));
         self.untwist_where(touches, is_active, self.params.twisted, probe);
         let united = unite(&self.rings, &view, &active, self.params.keep_intersections);
         let united = united.and_then(|united| match holds_robot(&united, &view) {
@@ -175,6 +175,27 @@ impl ActiveArea {
                 probe.emit(PolygonEvent::Invalid { vertex, why });
             }
         }
+    }
+
+    /// Settles frontier along walls, both ways between the view and what the area saw before.
+    fn settle_walls(&mut self, vertex: VertexId, view: &mut Vec<Corner>, active: &Area) {
+        let radius_m = self.params.open.wall_closing_m;
+        let Some(around) = box_of(view) else { return };
+        let mut walls = Vec::new();
+        let Some(volume) = self.here.volume(vertex) else { return };
+        walls_near(vertex, volume, &self.correction.pose(vertex), around, radius_m, &mut walls);
+        let takes = |corner: &Corner| active.contains(corner.edge.data.vertex);
+        for ring in &mut self.rings {
+            settle_along(ring, takes, &walls, radius_m);
+        }
+        walls.clear();
+        for &other in active.vertices() {
+            if let Some(volume) = self.views.get(other).and_then(Option::as_deref) {
+                let map_from_other = self.correction.pose(other);
+                walls_near(other, volume, &map_from_other, around, radius_m, &mut walls);
+            }
+        }
+        settle_along(view, |_| true, &walls, radius_m);
     }
 
     fn tell_union(
@@ -228,10 +249,10 @@ impl ActiveArea {
         self.untwist_where(inner, |_, _| true, self.params.twisted, probe);
         let active = self.area(at);
         let is_active =
-            |a: &Corner, b: &Corner| active.contains(&a.anchor) && active.contains(&b.anchor);
+            |a: &Corner, b: &Corner| active.contains(a.anchor) && active.contains(b.anchor);
         // Overlapping active parts of an outer ring are merged: what is doubly known goes.
         let outer = |ring: &[Corner]| {
-            twice_area_m2(ring) > 0.0 && ring.iter().any(|c| active.contains(&c.anchor))
+            twice_area_m2(ring) > 0.0 && ring.iter().any(|c| active.contains(c.anchor))
         };
         self.untwist_where(outer, is_active, Twisted::Remove, probe);
         self.measure();
@@ -239,29 +260,24 @@ impl ActiveArea {
 
     fn measure(&mut self) {
         let discs = self.given_up.discs(|vertex| self.correction.pose(vertex));
-        self.open = OpenFrontier::of(&region_of_rings(&self.rings), &self.params.open, &discs);
+        // Walls have settled what they settle when views were united.
+        let params = OpenParams { wall_closing_m: 0.0, ..self.params.open };
+        self.open = OpenFrontier::of(&region_of_rings(&self.rings), &params, &discs);
     }
 
     /// The open frontier that is anchored inside the area (2.9.2).
-    fn open_inside(&self, active: &BTreeSet<VertexId>) -> OpenFrontier {
+    fn open_inside(&self, active: &Area) -> OpenFrontier {
         let mut inside = self.open.clone();
         inside
             .chains
-            .retain(|chain| chain.parts.iter().any(|part| active.contains(&part.tag.vertex)));
+            .retain(|chain| chain.parts.iter().any(|part| active.contains(part.tag.vertex)));
         inside
     }
 
     /// What the views of the area saw, united.
-    fn region_inside(&self, active: &BTreeSet<VertexId>) -> Region<Tag> {
-        let placed: Vec<Region<Tag>> = active
-            .iter()
-            .filter_map(|&vertex| {
-                let volume = self.views.get(vertex)?.as_deref()?;
-                Some(region_of(vertex, volume, &self.correction.pose(vertex)))
-            })
-            .collect();
-        let all: Vec<&Region<Tag>> = placed.iter().collect();
-        union_all(&all).map(|united| with_straight_walls(&united.region)).unwrap_or_default()
+    fn region_inside(&self, active: &Area) -> Region<Tag> {
+        let view = |vertex| self.views.get(vertex)?.as_deref();
+        region_inside(active, view, |vertex| self.correction.pose(vertex))
     }
 
     fn corrected(&mut self, before: Vec<Se2>, corrected: bool, probe: &mut dyn MapProbe) {

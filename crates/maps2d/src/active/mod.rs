@@ -11,17 +11,21 @@
 //! 2. **Doubly seen space** (2.7.5): rings that the new view may meet are searched for crossings of
 //!    their own active edges first, and split there (`untwist`). A part that runs the wrong way
 //!    round is *upended*: it is turned round, or removed, as [`Twisted`] says.
-//! 3. **Union** (2.6, 2.7.2): active edges are intersected with the view; where of an entry and its
+//! 3. **Walls**: frontier of the view along walls that the area saw before, and frontier of the area
+//!    along walls of the view, is settled: that part of the edge is free from then on (`walls`). Not in
+//!    the thesis. Where rays graze a wall they end far apart, and between them a view has frontier on the
+//!    wall itself; the union may swallow the wall that another view saw there and keep the frontier.
+//! 4. **Union** (2.6, 2.7.2): active edges are intersected with the view; where of an entry and its
 //!    exit only one was found, the ring is followed on, past the area, until the other is
 //!    (eq. 2.10, 2.11). At an entry the boundary goes over to the view, at an exit back
 //!    (eq. 2.6), and loops are collected (`unite`). Intersection points become corners or are left out
 //!    (2.7.4). Overlaps outside the area stay: two sheets over one place.
-//! 4. **Loop closure** (2.7.3): the pose graph is optimised at every place recognition
+//! 5. **Loop closure** (2.7.3): the pose graph is optimised at every place recognition
 //!    ([`crate::correction`]); every corner moves with its anchor (eq. 2.12); inner rings that were
 //!    twisted by it are split; active parts that now overlap are merged, which is the same split.
-//! 5. **Frontier** is what is labelled so on any ring; reachability is judged inside the area only
+//! 6. **Frontier** is what is labelled so on any ring; reachability is judged inside the area only
 //!    (2.9.2): goals in view, then ways on the dual graph of what the area's views saw
-//!    ([`crate::polygons`]); then back along the graph to the nearest vertex with frontier (2.9.3).
+//!    ([`crate::polygons`]), views that add nothing to it left out (`ways`); then back along the graph to the nearest vertex with frontier (2.9.3).
 //!
 //! **It fails** where the area is too small to hold both sides of an overlap, or so big that it merges
 //! both sides of a wall that drift has laid over each other (2.7.5). What can be noticed of that is
@@ -33,12 +37,17 @@
 //! up to a tenth of a millimetre, fixed by vertex and corner, so that "point on a line" and "parallel"
 //! (2.6.4) do not happen but by chance; side tests are exact. Every walk is bounded by the number of
 //! corners, so it always ends.
+//!
+//! A step costs what the area holds, but for a walk along all corners of the map to see which of them
+//! are active, and but for the optimisation of the whole pose graph at a place recognition.
 
 mod area;
 mod map;
 mod rings;
 mod unite;
 mod untwist;
+mod walls;
+mod ways;
 
 pub use map::{ActiveArea, ActiveAreaParams};
 pub use rings::Corner;

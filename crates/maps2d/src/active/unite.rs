@@ -2,11 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use geometry::Point2;
-use probe::VertexId;
-
 use super::Corner;
+use super::area::Area;
 use super::rings::{crosses, joined, next, parameters, twice_area_m2, winding};
+use geometry::Point2;
 
 /// Why a union was not made: the map is not what it should be there.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,14 +62,14 @@ const LEAST_M2: f64 = 1e-6;
 pub(super) fn unite(
     rings: &[Vec<Corner>],
     view: &[Corner],
-    active: &BTreeSet<VertexId>,
+    active: &Area,
     keep_points: bool,
 ) -> Result<United, Broken> {
     let mut found = United::default();
     for (index, ring) in rings.iter().enumerate() {
         for edge in 0..ring.len() {
             let ends = [ring[edge].anchor, ring[next(ring, edge)].anchor];
-            if ends.iter().all(|anchor| active.contains(anchor)) {
+            if ends.iter().all(|anchor| active.contains(*anchor)) {
                 cross(ring, index, edge, view, &mut found.crossings);
             }
         }
@@ -88,7 +87,7 @@ pub(super) fn unite(
     for (index, ring) in rings.iter().enumerate() {
         let swallowed = twice_area_m2(ring) < 0.0 || !walked[index];
         let inside = ring.first().is_some_and(|corner| {
-            swallowed && active.contains(&corner.anchor) && winding(view, &corner.at) > 0
+            swallowed && active.contains(corner.anchor) && winding(view, &corner.at) > 0
         });
         if !walked[index] && !inside {
             found.rings.push(ring.clone());
@@ -248,18 +247,14 @@ fn stretch(out: &mut Vec<Corner>, chain: &[Corner], from: (usize, f64), to: (usi
 }
 
 /// No crossing: the view lies in what is known, or around it, or apart.
-fn without_crossing(
-    rings: &[Vec<Corner>],
-    view: &[Corner],
-    active: &BTreeSet<VertexId>,
-) -> Vec<Vec<Corner>> {
+fn without_crossing(rings: &[Vec<Corner>], view: &[Corner], active: &Area) -> Vec<Vec<Corner>> {
     let Some(first) = view.first() else { return rings.to_vec() };
     // Active rings inside the view: all that they bound was seen now.
     let mut kept: Vec<Vec<Corner>> = rings
         .iter()
         .filter(|ring| {
             let inside =
-                |corner: &Corner| active.contains(&corner.anchor) && winding(view, &corner.at) > 0;
+                |corner: &Corner| active.contains(corner.anchor) && winding(view, &corner.at) > 0;
             !ring.iter().all(inside)
         })
         .cloned()

@@ -99,15 +99,20 @@ impl OpenFrontier {
     ///
     /// Cost: frontier edges times obstacle edges in the cells around them.
     pub fn of(region: &Region<Tag>, params: &OpenParams, given_up: &[(Point2, f64)]) -> Self {
-        let walls = Walls::of(region);
+        let walls = if params.wall_closing_m > 0.0 { Walls::of(region) } else { Walls::default() };
         let mut found = Self::default();
         let mut ring: Vec<(usize, OpenPart, Interval)> = Vec::new();
         let mut at = 0;
         for (index, outline) in region.rings.iter().enumerate() {
             ring.clear();
             for edge in region.edges_of(index) {
-                if edge.label == EdgeLabel::Frontier {
-                    found.edge(&edge, &walls, params, given_up, &mut ring);
+                match edge.label {
+                    EdgeLabel::Frontier => {
+                        found.edge(&edge, &walls, params, given_up, &mut ring);
+                    }
+                    // On an outline that is what was settled before.
+                    EdgeLabel::Free => found.wall_m += (edge.to - edge.from).norm(),
+                    EdgeLabel::Obstacle => {}
                 }
             }
             found.join(&ring, outline.points.len());
@@ -133,6 +138,9 @@ impl OpenFrontier {
         let mut newly = Vec::new();
         let length_m = (edge.to - edge.from).norm();
         for (centre, radius_m) in given_up {
+            if box_gap(&edge.from, &edge.to, centre, centre) > *radius_m {
+                continue;
+            }
             if let Some(span) = near_segment(&edge.from, &edge.to, centre, centre, *radius_m) {
                 ledger.close(span, &Gone::GivenUp, &mut newly);
             }
@@ -203,7 +211,8 @@ impl OpenFrontier {
         let slivers: f64 =
             self.chains.iter().filter(|chain| !chain.counts).map(|chain| chain.length_m).sum();
         crate::Frontier {
-            open_m: self.counting().map(|chain| chain.length_m).sum(),
+            // The sum of nothing is -0.
+            open_m: 0.0 + self.counting().map(|chain| chain.length_m).sum::<f64>(),
             ignored_m: slivers + self.wall_m + self.given_up_m,
             places: self.counting().count(),
         }
@@ -214,6 +223,7 @@ impl OpenFrontier {
 const BUCKET_M: f64 = 1.0;
 
 /// Obstacle edges by the cells that they may reach.
+#[derive(Default)]
 struct Walls {
     edges: Vec<RegionEdge<Tag>>,
     /// The edges whose box touches a cell, ascending.

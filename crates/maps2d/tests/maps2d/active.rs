@@ -2,8 +2,8 @@
 
 use geometry::Point2;
 use maps2d::active::{ActiveArea, ActiveAreaParams, Corner, Twisted};
-use maps2d::polygons::{CorrectedPolygons, CorrectedPolygonsParams};
-use maps2d::{Candidate, ExplorationMap};
+use maps2d::polygons::{CorrectedPolygons, CorrectedPolygonsParams, OpenParams};
+use maps2d::{Candidate, ExplorationMap, Frontier};
 use pose::Se2;
 use probe::Off;
 use proptest::prelude::*;
@@ -99,6 +99,27 @@ fn with_all_active_it_is_the_union() {
     assert_eq!(active.invalid(), 0);
     let (area, expected) = (area_m2(active.rings()), united.region().area_m2());
     assert!(area > 0.93 * expected && area < 1.01 * expected, "{area} m2 for {expected} m2");
+}
+
+/// Walls settle the frontier along them, though the union swallows them: what is left open is what the
+/// union of all views has left, whose walls are all there.
+#[test]
+fn frontier_along_walls_is_settled() {
+    let (room, sensor, poses) = round_trip();
+    let params = ActiveAreaParams { area_edges: 1000, ..ActiveAreaParams::default() };
+    let without = OpenParams { wall_closing_m: 0.0, ..params.open };
+    let mut active = ActiveArea::new(params);
+    let mut blind = ActiveArea::new(ActiveAreaParams { open: without, ..params });
+    let mut united = CorrectedPolygons::new(CorrectedPolygonsParams::default());
+    let mut drive = Drive::new(&room, &sensor);
+    for pose in &poses {
+        drive.go(pose, &[], &mut [&mut active, &mut blind, &mut united], &mut Off);
+    }
+    let [settled, open, expected] = [active.frontier(), blind.frontier(), united.frontier()];
+    assert!((settled.open_m - expected.open_m).abs() < 1.0, "{settled:?}, {expected:?}");
+    assert!(open.open_m > settled.open_m + 1.0, "{open:?}, {settled:?}");
+    let all = |left: Frontier| left.open_m + left.ignored_m;
+    assert!((all(open) - all(settled)).abs() < 0.05 * all(open), "settled, not lost: {settled:?}");
 }
 
 /// With a small area the end of the round trip lies on top of its beginning, as a sheet of its own.
