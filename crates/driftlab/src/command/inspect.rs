@@ -21,6 +21,8 @@ pub(super) fn inspect(args: &InspectArgs, out: &Out) -> Result<(), Failure> {
     let mut json = inspection.to_json();
     let quarrel = inspection.metrics.as_ref().and_then(|metrics| metrics.get("disagreement"));
     json["disagreement"] = quarrel.cloned().unwrap_or(Value::Null);
+    let quarrels = inspection.metrics.as_ref().and_then(|metrics| metrics.get("disagreements"));
+    json["disagreements"] = quarrels.cloned().unwrap_or_else(|| json!([]));
     let mut text = shown(&inspection);
     if let Some(other) = &args.diff {
         let other = recording(other)?;

@@ -1,4 +1,8 @@
-//! Where the beliefs of several maps first disagree about a frontier.
+//! Where the beliefs of several maps first disagree about a frontier, and why.
+//!
+//! Maps disagree all the time about the edge of what was just seen: a cell is unknown until it is seen
+//! whole, a polygon is cut through it. That is harmless. What ends a run too early is a map that claims
+//! to know what nobody has ever seen. So the first disagreement of each cause is told.
 
 use geometry::Point2;
 use maps2d::{Candidate, ExplorationMap};
@@ -35,17 +39,31 @@ pub struct Disagreement {
     #[serde(skip)]
     pub frontier_in_body: Point2,
     /// `drift`: what lies behind was never truly seen, so the map that claims to know it has laid
-    /// another place over it. `not_consolidated`: it was seen, and the map with the frontier does not
-    /// count that.
+    /// another place over it. `not_consolidated`: it was seen, from a place that is not near in the
+    /// graph of the map with the frontier. `resolution`: it was seen, but not well enough for that map:
+    /// a cell counts once it was seen whole.
     pub cause: &'static str,
 }
 
+/// How many causes there are.
+pub const CAUSES: usize = 3;
+
 impl Disagreement {
+    /// What to write beside its mark.
+    pub fn label(&self) -> &'static str {
+        match self.cause {
+            "drift" => "first disagreement by drift",
+            "resolution" => "first disagreement by resolution",
+            _ => "first frontier not consolidated",
+        }
+    }
+
     /// Who says what, and why, in a line.
     pub fn in_words(&self) -> String {
         let Self { open_in, known_in, step, frontier_x_m, frontier_y_m, length_m, .. } = self;
         let why = match self.cause {
             "drift" => "what lies behind was never seen: drift has laid another place over it",
+            "resolution" => "what lies behind was seen, but not so well that both count it",
             _ => "what lies behind was seen, from a place that is not near in the graph",
         };
         format!(
@@ -55,7 +73,8 @@ impl Disagreement {
     }
 }
 
-/// The first frontier in view of any map behind which another map knows something.
+/// The first frontier in view of any map behind which another map knows something, for a cause that
+/// was not told before.
 ///
 /// Cost: the frontiers in view, times the maps.
 pub fn disagreement(
@@ -64,6 +83,7 @@ pub fn disagreement(
     names: &[&'static str],
     maps: &mut [Box<dyn ExplorationMap + Send>],
     witness: &Witness,
+    told: &[Disagreement],
 ) -> Option<Disagreement> {
     let standing = report.standing;
     let mut seen: Vec<Candidate> = Vec::new();
@@ -80,15 +100,22 @@ pub fn disagreement(
             if maps[open].knows(&standing, &behind) {
                 continue;
             }
-            let known = others.into_iter().find(|&other| {
-                [0.75, 1.0, 1.25]
-                    .iter()
-                    .all(|k| maps[other].knows(&standing, &(goal + normal * (k * BEHIND_M))))
-            });
+            let places = [0.75, 1.0, 1.25].map(|k| goal + normal * (k * BEHIND_M));
+            let known = others
+                .into_iter()
+                .find(|&other| places.iter().all(|place| maps[other].knows(&standing, place)));
             let Some(known) = known else { continue };
             let world_from_body = witness.world_from_body();
             let frontier = world_from_body.transform(&goal);
-            let truly_seen = is_seen(witness, &world_from_body.transform(&behind));
+            let seen = |place: &Point2| is_seen(witness, &world_from_body.transform(place));
+            let cause = match places.iter().any(seen) {
+                false => "drift",
+                true if matches!(names[open], "relative" | "extended") => "not_consolidated",
+                true => "resolution",
+            };
+            if told.iter().any(|before| before.cause == cause) {
+                continue;
+            }
             return Some(Disagreement {
                 step,
                 distance_m: witness.tally().distance_m,
@@ -98,7 +125,7 @@ pub fn disagreement(
                 frontier_y_m: frontier.y,
                 length_m: candidate.length_m,
                 frontier_in_body: goal,
-                cause: if truly_seen { "not_consolidated" } else { "drift" },
+                cause,
             });
         }
     }

@@ -11,7 +11,7 @@ use posegraph::EdgeKind;
 use probe::VertexId;
 use worlds::{RobotParams, SimRobot, World2d};
 
-use super::disagree::{Disagreement, disagreement};
+use super::disagree::{CAUSES, Disagreement, disagreement};
 use super::sides::{AtWork, Side, Telling, TruePoses, map_of};
 use super::timed::{TimedProbe, TimedRobot};
 use super::{CorrectionTiming, MapMetrics, MapTiming, StepRow, StepSeen, Watch, quantile};
@@ -31,8 +31,9 @@ pub struct MapRun {
     pub timing: MapTiming,
     /// Its steps.
     pub rows: Vec<StepRow>,
-    /// Where the maps of its robot first disagreed about a frontier; the same for all of them.
-    pub disagreement: Option<Disagreement>,
+    /// Where the maps of its robot first disagreed about a frontier, for each cause; the same for all
+    /// of them.
+    pub disagreements: Vec<Disagreement>,
 }
 
 /// Runs one robot to its end; the first of `kinds` steers, the others ride along.
@@ -62,7 +63,7 @@ pub fn drive<W: Watch>(
     let mut riders: Vec<Rider> = kinds.iter().map(|&kind| Rider::new(kind)).collect();
     let mut costs = Costs::new(riders.len());
 
-    let mut quarrel: Option<Disagreement> = None;
+    let mut quarrels: Vec<Disagreement> = Vec::new();
     watch.maps(&at_work);
     watch.place(world, coverage)?;
     let mut step = 0;
@@ -75,9 +76,10 @@ pub fn drive<W: Watch>(
         for (rider, map) in riders.iter_mut().zip(explorer.maps()) {
             rider.step(step, &explorer, &report, map.as_ref(), &witness);
         }
-        let asked = kinds.len() > 1 && quarrel.is_none();
-        if asked {
-            quarrel = disagreement(step, &report, kinds, explorer.maps_mut(), &witness);
+        let told = quarrels.len();
+        if kinds.len() > 1 && told < CAUSES {
+            let maps = explorer.maps_mut();
+            quarrels.extend(disagreement(step, &report, kinds, maps, &witness, &quarrels));
             // Asking is nobody's step.
             (0..kinds.len()).for_each(|map| _ = at_work.take(map));
         }
@@ -88,7 +90,7 @@ pub fn drive<W: Watch>(
             witness: &witness,
             newly_seen: &newly_seen,
             rows: &rows,
-            disagreement: quarrel.as_ref().filter(|_| asked),
+            disagreement: quarrels.get(told),
         };
         let start = Instant::now();
         watch.step_ends(&end)?;
@@ -111,7 +113,7 @@ pub fn drive<W: Watch>(
             metrics: rider.metrics(steers, &explorer, &report, map.as_ref(), &witness),
             timing: costs.timing(index, rider.bytes_peak, wall_secs),
             rows: rider.rows,
-            disagreement: quarrel.clone(),
+            disagreements: quarrels.clone(),
         });
     }
     Ok(runs)

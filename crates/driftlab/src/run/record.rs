@@ -81,6 +81,7 @@ impl Watch for Recorder {
             let quarrel = Quarrel {
                 at_in_world: Point2::new(found.frontier_x_m, found.frontier_y_m),
                 at_in_body: found.frontier_in_body,
+                label: found.label(),
                 text: &found.in_words(),
             };
             self.disagreed(&end.report.standing, &quarrel);

@@ -18,6 +18,9 @@ pub struct MetricsReport {
     /// Where maps that one robot feeds first disagreed about a frontier.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub disagreement: Option<Disagreement>,
+    /// The first disagreement of each cause, in order.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub disagreements: Vec<Disagreement>,
 }
 
 /// What one map believed and what was true.

@@ -6,8 +6,8 @@ use std::time::Instant;
 use instrument::{InstrumentError, Recorder};
 
 use super::{
-    Experiment, Fan, Input, MapRun, MetricsReport, Provenance, StepRow, TimingReport, VERSION,
-    drive, provenance::GIT_HASH, report, start_recording, to_parquet,
+    Disagreement, Experiment, Fan, Input, MapRun, MetricsReport, Provenance, StepRow, TimingReport,
+    VERSION, drive, provenance::GIT_HASH, report, start_recording, to_parquet,
 };
 use crate::table::TableError;
 
@@ -62,12 +62,19 @@ pub fn run_experiment(
         runs.extend(drive(config, &place.world, coverage, &kinds, &mut recorders, on_step)?);
         recorders.into_watchers().iter_mut().try_for_each(Recorder::send)?;
     }
+    let disagreements: Vec<Disagreement> = runs
+        .iter()
+        .map(|run| &run.disagreements)
+        .find(|disagreements| !disagreements.is_empty())
+        .cloned()
+        .unwrap_or_default();
     let mut outcome = Outcome {
         metrics: MetricsReport {
             name: experiment.config.name.clone(),
             seed: experiment.config.seed,
             maps: runs.iter().map(|run| (run.name.to_owned(), run.metrics.clone())).collect(),
-            disagreement: runs.iter().find_map(|run| run.disagreement.clone()),
+            disagreement: disagreements.first().cloned(),
+            disagreements,
         },
         timing: TimingReport {
             maps: runs.iter().map(|run| (run.name.to_owned(), run.timing.clone())).collect(),

@@ -43,7 +43,7 @@ pub struct StepSeen<'a> {
     pub newly_seen: &'a [usize],
     /// The rows of the maps in `steps.parquet`, the steering one first.
     pub rows: &'a [&'a StepRow],
-    /// The first disagreement of the maps, at the step at which it was found.
+    /// The first disagreement of the maps for its cause, at the step at which it was found.
     pub disagreement: Option<&'a Disagreement>,
 }
 

@@ -62,8 +62,8 @@ pub(crate) fn about(options: &RecordingOptions) -> String {
         ("teal line", "the trajectory after the last correction; pale: before it"),
         (
             "black ring",
-            "where the maps of one robot first disagree about a frontier: one sees it, another believes \
-             to know what lies behind",
+            "where the maps of one robot first disagree about a frontier, one for each cause: one sees it, \
+             another believes to know what lies behind. By drift: nobody ever saw it",
         ),
         ("blue line", "path: true where it lies in the truth, odometry in the pose graph"),
     ] {
@@ -82,12 +82,14 @@ pub(crate) fn result(metrics: &serde_json::Value) -> String {
         other => other.to_string(),
     };
     if let Some(all) = metrics.as_object() {
-        for (key, value) in all.iter().filter(|(_, value)| !value.is_object()) {
+        for (key, value) in all.iter().filter(|(_, value)| !value.is_object() && !value.is_array())
+        {
             page.push_str(&format!("- {key}: {}\n", plain(value)));
         }
     }
-    if let Some(quarrel) = metrics.get("disagreement").and_then(serde_json::Value::as_object) {
-        page.push_str("\nWhere beliefs first disagree:\n\n");
+    let quarrels = metrics.get("disagreements").and_then(serde_json::Value::as_array);
+    for quarrel in quarrels.into_iter().flatten().filter_map(serde_json::Value::as_object) {
+        page.push_str("\nWhere beliefs first disagree for this cause:\n\n");
         for (key, value) in quarrel {
             page.push_str(&format!("- {key}: {}\n", plain(value)));
         }

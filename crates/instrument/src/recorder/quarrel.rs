@@ -1,4 +1,4 @@
-//! Where maps that one robot feeds first disagree about a frontier.
+//! Where maps that one robot feeds first disagree about a frontier, for each cause.
 
 use geometry::Point2;
 use rerun::RecordingStream;
@@ -14,6 +14,8 @@ pub struct Quarrel<'a> {
     pub at_in_world: Point2,
     /// The frontier as the robot sees it, body frame, metres.
     pub at_in_body: Point2,
+    /// What to write beside its mark.
+    pub label: &'a str,
     /// Who says what, and why, in a line.
     pub text: &'a str,
 }
@@ -29,6 +31,8 @@ pub(super) struct Quarrels {
     text: EventTexts,
     /// Whether the belief's frame stays where it is, so that the ring may.
     stays: bool,
+    /// The marks so far: those in the truth all stay.
+    marked: Vec<Point2>,
 }
 
 impl Quarrels {
@@ -39,14 +43,16 @@ impl Quarrels {
             in_belief: Lines::new(format!("{name}/belief/disagreement"), -2.0, 60.0),
             text: EventTexts::new(&format!("{name}/events/comparison"), rgb(255, 255, 255)),
             stays: centre == Centre::Start,
+            marked: Vec::new(),
         }
     }
 
     fn take(&mut self, quarrel: &Quarrel<'_>, at_in_belief: &Point2, now: &Now) {
-        ring(&mut self.in_truth, &quarrel.at_in_world);
+        self.marked.push(quarrel.at_in_world);
+        self.marked.iter().for_each(|at| ring(&mut self.in_truth, at));
         self.in_truth.end_row(now);
         let above = quarrel.at_in_world + geometry::Vector2::new(0.0, RING_M);
-        self.label.put(&above, "first disagreement", palette::QUARREL, now);
+        self.label.put(&above, quarrel.label, palette::QUARREL, now);
         ring(&mut self.in_belief, at_in_belief);
         self.in_belief.end_row(now);
         self.text.push("Disagreed", format_args!("{}", quarrel.text), now);
