@@ -8,7 +8,7 @@ use worlds::generate::{CavesParams, CorridorParams, MazeParams, PillarsParams, R
 use super::document::join;
 use super::load::properties_of;
 use super::schema::{properties, resolved, schema};
-use super::{Config, World, reach};
+use super::{Config, PolygonsWorld, World, reach};
 
 /// A value outside what its key allows.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -148,11 +148,29 @@ fn between_keys(config: &Config, faults: &mut Vec<Fault>) {
             faults.push(fault(&path, found.to_string(), expected.into()));
         }
     }
-    if let Some(World::Polygons(world)) = &config.world
-        && let Some(block) = world.blocks.iter().find(|block| block.len() < 3)
-    {
+    if let Some(World::Polygons(world)) = &config.world {
+        blocks(world, faults);
+    }
+}
+
+/// Blocks have an area, and lie in the place: what reaches beyond the wall would open ground there.
+fn blocks(world: &PolygonsWorld, faults: &mut Vec<Fault>) {
+    let path = "world.polygons.blocks";
+    if let Some(block) = world.blocks.iter().find(|block| block.len() < 3) {
         let found = format!("a block of {} corners", block.len());
-        faults.push(fault("world.polygons.blocks", found, "3 corners or more".into()));
+        faults.push(fault(path, found, "3 corners or more".into()));
+    }
+    let extent = |axis: usize| {
+        let all = || world.outline.iter().map(move |corner| corner[axis]);
+        (all().fold(f64::INFINITY, f64::min), all().fold(f64::NEG_INFINITY, f64::max))
+    };
+    let extents = [extent(0), extent(1)];
+    let is_out = |corner: &&[f64; 2]| {
+        extents.iter().zip(corner.iter()).any(|((least, most), x)| x < least || x > most)
+    };
+    if let Some([x, y]) = world.blocks.iter().flatten().find(is_out) {
+        let expected = "corners within the extent of `world.polygons.outline`";
+        faults.push(fault(path, format!("the corner [{x}, {y}]"), expected.into()));
     }
 }
 

@@ -11,6 +11,7 @@ use super::check::{Fault, faults, is_folder_name};
 use super::document::{Spans, VARIANTS, join, keep, lay_over, moved, spans, table_at};
 use super::explain::{explained, with_meaning};
 use super::schema::{properties, property_at};
+use super::shape::no_list_for_a_table;
 use super::source::Sources;
 use super::{Config, ConfigError, Origin, Place};
 
@@ -102,6 +103,7 @@ impl Loaded {
             lay_over(&mut document, over);
         }
 
+        no_list_for_a_table(&document, &sources)?;
         let spans = spans(&document);
         let parser = toml::de::Deserializer::from(Spanned::new(root_span, document));
         let mut config =
@@ -166,8 +168,15 @@ impl Loaded {
         let fault = faults.into_iter().min_by_key(standing)?;
         let missing = fault.path.is_empty() || fault.found.starts_with("no ");
         let key = if missing { String::new() } else { format!(" for `{}`", fault.path) };
+        // What is missing is told where it could be added: at the end of the file.
+        let end = self.text.trim_end().len();
+        let place = if missing && !self.spans.contains_key(&fault.path) {
+            self.sources.place(end..end)
+        } else {
+            self.place(&fault.path)
+        };
         Some(ConfigError::Value {
-            place: self.place(&fault.path),
+            place,
             found: format!("{}{key}", fault.found),
             expected: with_meaning(&fault.expected, &fault.path),
         })
@@ -183,8 +192,7 @@ impl Loaded {
         &self.notes
     }
 
-    /// Where the value of a dotted key was written; for one that was not, its table or the end of
-    /// the file.
+    /// Where the value of a dotted key was written; for one that was not, its table or the file.
     pub fn place(&self, path: &str) -> Place {
         let mut path = path;
         loop {
@@ -193,11 +201,7 @@ impl Loaded {
             }
             match path.rsplit_once('.') {
                 Some((parent, _)) => path = parent,
-                // What is missing is told where it could be added: at the end of the file.
-                None => {
-                    let end = self.text.trim_end().len();
-                    return self.sources.place(end..end);
-                }
+                None => return Place::file(&self.path),
             }
         }
     }

@@ -12,6 +12,7 @@
 //! | `load` | file and command line to a checked config |
 //! | `source`, `document` | texts, spans, merging |
 //! | `schema`, `limits`, `check`, `reach` | ranges, from the types' attributes and units; rules between keys |
+//! | `shape` | lists where tables belong |
 //! | `explain`, `error` | the messages |
 //! | `axes` | what a sweep of an experiment varies |
 //! | `graph_sweep` | the config of a sweep over pose graphs |
@@ -36,6 +37,7 @@ mod reach;
 mod report;
 mod robot;
 mod schema;
+mod shape;
 mod show;
 mod source;
 #[cfg(test)]

@@ -1,5 +1,7 @@
 //! Lengths that only make sense beside the range of the sensor.
 
+use explore::RapidParams;
+
 use super::check::{Fault, fault};
 use super::{Config, Planner};
 
@@ -69,13 +71,18 @@ fn lengths(config: &Config) -> Vec<(String, f64)> {
         relative.chain(grid).chain(corrected).chain(polygons).chain(active).chain(extended);
     let mut all: Vec<(String, f64)> =
         of_maps.map(|(key, length_m)| (format!("map.{key}"), length_m)).collect();
-    let (policy, clearances_m, give_up_radius_m) = match &config.planner {
-        Planner::Rapid(planner) => ("rapid", &planner.clearances_m, planner.give_up_radius_m),
-        Planner::Survey(planner) => ("survey", &planner.clearances_m, planner.give_up_radius_m),
+    let (policy, planner) = match &config.planner {
+        Planner::Rapid(planner) => ("rapid", RapidParams::from(planner)),
+        Planner::Survey(planner) => ("survey", RapidParams::from(planner)),
     };
+    let lists =
+        [("clearances_m", &planner.clearances_m), ("normal_point_m", &planner.normal_point_m)];
     let of_policy = |key: &str| format!("planner.{policy}.{key}");
-    all.extend(clearances_m.iter().map(|&length_m| (of_policy("clearances_m"), length_m)));
-    all.push((of_policy("give_up_radius_m"), give_up_radius_m));
+    for (key, lengths_m) in lists {
+        all.extend(lengths_m.iter().map(|&length_m| (of_policy(key), length_m)));
+    }
+    all.push((of_policy("give_up_radius_m"), planner.give_up_radius_m));
+    all.push((of_policy("arrival_m"), planner.arrival_m));
     all.push(("robot.radius_m".to_owned(), config.robot.radius_m));
     all
 }

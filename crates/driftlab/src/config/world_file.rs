@@ -18,6 +18,14 @@ const HEAD: u64 = 1 << 16;
 /// A file that cannot be read, or of another kind.
 pub fn world_kind_of_file(path: &Path) -> Result<&'static str, ConfigError> {
     let expected = "a map: map_server YAML, PGM, PNG or MovingAI .map";
+    // Reading a pipe would wait for ever.
+    if std::fs::metadata(path).is_ok_and(|about| !about.is_file() && !about.is_dir()) {
+        return Err(ConfigError::Value {
+            place: Place::file(path),
+            found: "no ordinary file".into(),
+            expected: expected.into(),
+        });
+    }
     let mut head = Vec::new();
     let read = File::open(path).and_then(|file| file.take(HEAD).read_to_end(&mut head));
     read.map_err(|reason| ConfigError::Unreadable {

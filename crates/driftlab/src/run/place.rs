@@ -89,6 +89,10 @@ fn check_body(world: &World2d, loaded: &Loaded) -> Result<(), ConfigError> {
     let radius_m = loaded.config.robot.radius_m;
     let at = Point2::from(world.world_from_start().translation);
     let room_m = world.caster().distance_to(&at);
+    if room_m == 0.0 {
+        let message = format!("the start ({:.3} m, {:.3} m) stands on a wall", at.x, at.y);
+        return Err(ConfigError::World { place: loaded.place("start"), message });
+    }
     if radius_m < room_m {
         return Ok(());
     }
@@ -122,6 +126,11 @@ struct Files {
 
 impl Files {
     fn read(&mut self, path: &Path, expected: &str) -> Result<Vec<u8>, Trouble> {
+        // Reading a pipe would wait for ever.
+        if fs::metadata(path).is_ok_and(|about| !about.is_file() && !about.is_dir()) {
+            let message = format!("is no ordinary file; expected {expected}");
+            return Err(Trouble::File { path: path.to_owned(), message });
+        }
         let bytes = fs::read(path).map_err(|reason| Trouble::File {
             path: path.to_owned(),
             message: format!("cannot be read ({reason}); expected {expected}"),
@@ -212,6 +221,12 @@ fn jittered(world: World2d, config: &Config) -> Result<World2d, Trouble> {
         let between = Point2::from(start.translation);
         // A start beyond a thin wall would be in another room.
         if world.caster().blocked(&between, &Point2::from(moved.translation)) {
+            continue;
+        }
+        // Nor is one of use where the body does not fit, if it fits at the start itself.
+        let radius_m = config.robot.radius_m;
+        let room_m = |at| world.caster().distance_to(&Point2::from(at));
+        if room_m(moved.translation) <= radius_m && room_m(start.translation) > radius_m {
             continue;
         }
         match world.with_start(moved) {
@@ -379,6 +394,7 @@ mod tests {
             "[world.polygons]\noutline = [[0, 0], [1, 0], [2, 0]]",
             "[world.polygons]\noutline = [[0, 0], [1e10, 0], [0, 1e10]]",
             "[robot]\nradius_m = 2.5\n[world.paper]\nmap = \"maze\"",
+            "[start]\nx_m = 1.0\ny_m = 5.0\n[world.paper]\nmap = \"open\"",
         ] {
             let error = place(folder.path(), text).unwrap_err();
             page.push_str(&format!("{text}\n--> {error}\n\n"));

@@ -58,6 +58,14 @@ impl Experiments {
                 expected: "a table [sweep] with seeds and axes".into(),
             });
         };
+        let last = loaded.config.seed.checked_add(sweep.seeds.saturating_sub(1));
+        if last.is_none_or(|last| i64::try_from(last).is_err()) {
+            return Err(ConfigError::Value {
+                place: loaded.place("sweep.seeds"),
+                found: format!("{} seeds from {} on", sweep.seeds, loaded.config.seed),
+                expected: format!("seeds up to {}", i64::MAX),
+            });
+        }
         let counts = sweep.axes.iter().map(|(_, values)| values.len());
         let runs = counts
             .chain(std::iter::once(usize::try_from(sweep.seeds).unwrap_or(usize::MAX)))
