@@ -92,10 +92,20 @@ fn fits(setting: &BTreeMap<String, toml::Value>, study: &Study, group: &Group) -
     })
 }
 
+/// The map that steers for all others too; `None` where each steers a robot of its own.
+pub(crate) fn steers<'a>(study: &'a Study, group: &'a Group) -> Option<&'a str> {
+    match study.value(group, "compare.drive") {
+        Some(Cell::Text(drive)) if drive != "each" => Some(drive),
+        _ => None,
+    }
+}
+
 impl Published {
-    /// Whether it speaks of this group.
+    /// Whether it speaks of this group: what the sources tell of a map is where it steers.
     fn fits(&self, study: &Study, group: &Group) -> bool {
-        self.maps.contains(&group.map) && fits(&self.setting, study, group)
+        self.maps.contains(&group.map)
+            && steers(study, group).is_none_or(|drive| drive == group.map)
+            && fits(&self.setting, study, group)
     }
 }
 

@@ -4,7 +4,7 @@ use super::chart::Chart;
 use super::curves::coverage_plots;
 use super::over_axes::{QUANTITIES, axis_plots, times_plot};
 use super::page::{Plot, Section};
-use super::published::reasons;
+use super::published::{reasons, steers};
 use super::tables::{accuracy, costs, published, results, times};
 use super::{ReportError, Study};
 
@@ -41,7 +41,14 @@ fn one_study(study: &Study, stem: &str, all: &mut Vec<Section>) -> Result<(), Re
     let told = "Means over the runs ± one standard deviation. Distances count only for runs that \
                 ended complete and true; where these are not all, their number stands in brackets. \
                 95 %: Wilson's interval of the share that ended so.";
-    all.push(Section { table: Some(results(study)), ..part("Results", told) });
+    let mut told = told.to_owned();
+    if let Some(drive) = study.groups.first().and_then(|group| steers(study, group)) {
+        told.push_str(&format!(
+            " One robot, steered by `{drive}`: every other map is fed the same scans, and is complete \
+             only if it has nothing left where that one stops. Distances are those at which that was so."
+        ));
+    }
+    all.push(Section { table: Some(results(study)), ..part("Results", &told) });
     if let Some(table) = published(study) {
         let told = "Means beside the published ones; the difference is ours less theirs, as a share \
                     of theirs. `success` is the share of runs that ended complete and true.";
