@@ -13,7 +13,7 @@ use super::corners::corners_of;
 use super::grow::Member;
 use super::{Corner, CornerState};
 use crate::polygons::{PolygonEvent, Tag, region_of};
-use crate::volume::{LocalVolume, Options, Samples, VolumeEvent, VolumeParams, build};
+use crate::volume::{LocalVolume, Options, Samples, VolumeParams, build, tell_of_volume};
 use crate::{Candidate, Clearance, ExplorationMap, Frontier, MapProbe, Route, Standing, Vantage};
 
 /// Parameters of [`ExtendedMap`].
@@ -195,17 +195,7 @@ impl ExplorationMap for ExtendedMap {
                 corner.state = same.state;
             }
         }
-        if Probe::<VolumeEvent<'_>>::on(probe) {
-            let volume = &local.volume;
-            let anchor_from_sensor = standing.vertex_from_body;
-            probe.emit(VolumeEvent::Measured { vertex, scan, anchor_from_sensor });
-            probe.emit(VolumeEvent::Sampled { vertex, samples: &local.samples });
-            probe.emit(if merged {
-                VolumeEvent::Merged { vertex, volume }
-            } else {
-                VolumeEvent::Built { vertex, volume }
-            });
-        }
+        tell_of_volume(standing, scan, (&local.samples, &local.volume), merged, probe);
         self.locals[vertex] = Some(local);
         self.extend(vertex, probe);
     }

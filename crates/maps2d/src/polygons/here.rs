@@ -4,7 +4,7 @@ use geometry::Point2;
 use probe::VertexId;
 use sensing::Scan;
 
-use crate::volume::{LocalVolume, Samples, VolumeEvent, VolumeParams, build};
+use crate::volume::{LocalVolume, Samples, VolumeParams, build, tell_of_volume};
 use crate::{Clearance, MapProbe, Standing};
 
 /// A goal counts as in view if the line of sight is free up to so near before it, metres: it lies on
@@ -34,17 +34,7 @@ impl Here {
         }
         self.samples.add(scan, &standing.vertex_from_body);
         self.volume = build(&self.samples, &self.params).unwrap_or_else(|_| LocalVolume::empty());
-        if probe::Probe::<VolumeEvent<'_>>::on(probe) {
-            let (vertex, volume) = (standing.vertex, &self.volume);
-            let anchor_from_sensor = standing.vertex_from_body;
-            probe.emit(VolumeEvent::Measured { vertex, scan, anchor_from_sensor });
-            probe.emit(VolumeEvent::Sampled { vertex, samples: &self.samples });
-            probe.emit(if merged {
-                VolumeEvent::Merged { vertex, volume }
-            } else {
-                VolumeEvent::Built { vertex, volume }
-            });
-        }
+        tell_of_volume(standing, scan, (&self.samples, &self.volume), merged, probe);
     }
 
     /// The volume seen from a vertex on this visit, if the robot stands there.

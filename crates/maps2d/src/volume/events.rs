@@ -1,10 +1,11 @@
 //! What the construction of a volume tells.
 
 use pose::Se2;
-use probe::VertexId;
+use probe::{Probe, VertexId};
 use sensing::Scan;
 
 use super::{LocalVolume, Samples};
+use crate::{MapProbe, Standing};
 
 /// Steps of building a local volume (\[ISRR19\] 4.1, \[Zie18\] 2.4).
 #[derive(Clone, Copy, Debug)]
@@ -42,3 +43,24 @@ pub enum VolumeEvent<'a> {
 }
 
 probe::variants!(VolumeEvent<'_>: Measured, Sampled, Built, Merged);
+
+/// Tells of a scan and of the volume that came of it; `merged` where there was one at its vertex.
+pub(crate) fn tell_of_volume(
+    standing: &Standing,
+    scan: &Scan,
+    (samples, volume): (&Samples, &LocalVolume),
+    merged: bool,
+    probe: &mut dyn MapProbe,
+) {
+    if !Probe::<VolumeEvent<'_>>::on(probe) {
+        return;
+    }
+    let (vertex, anchor_from_sensor) = (standing.vertex, standing.vertex_from_body);
+    probe.emit(VolumeEvent::Measured { vertex, scan, anchor_from_sensor });
+    probe.emit(VolumeEvent::Sampled { vertex, samples });
+    probe.emit(if merged {
+        VolumeEvent::Merged { vertex, volume }
+    } else {
+        VolumeEvent::Built { vertex, volume }
+    });
+}

@@ -19,6 +19,7 @@ pub mod samples;
 
 pub use build::{VolumeParams, build};
 pub use events::VolumeEvent;
+pub(crate) use events::tell_of_volume;
 pub use local::{EdgeKey, FrontierEdge, LocalVolume, ObstacleEdge};
 pub use options::{OcclusionRule, Options};
 pub use samples::{Sample, Samples};
