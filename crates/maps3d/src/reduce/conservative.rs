@@ -5,10 +5,11 @@ use crate::triangulate::{ImageMesh, rows_of};
 
 /// How far the surface of a mesh lies beyond the measured one at most, along viewing rays, metres.
 ///
-/// Measured is the surface of the full grid. Both surfaces are affine in inverse depth between the
-/// pixels and the places where edges of the mesh cross edges of the grid, so the largest excess lies
-/// at one of these, or within rounding of it; all are looked at. A distance from planes is never
-/// larger. 0 where the mesh lies nowhere beyond. O(pixels + length of all edges in pixels).
+/// Measured is the surface of the full grid. Looked at are all pixels and all places where edges of the
+/// mesh cross edges of the grid. Between these both surfaces are affine in inverse depth, but their
+/// difference in metres is not: inside a cell across a deep step it may be larger (by up to 43 % in one
+/// of a thousand images of a few pixels with steps). 0 where the mesh lies nowhere beyond.
+/// O(pixels + length of all edges in pixels).
 pub fn outside_max_m(image: &FilledImage, mesh: &ImageMesh) -> f64 {
     let mut most = 0.0_f64;
     visit(image, mesh, |_, place| {
@@ -17,8 +18,8 @@ pub fn outside_max_m(image: &FilledImage, mesh: &ImageMesh) -> f64 {
     most
 }
 
-/// Draws vertices towards the camera until the surface is nowhere more than `bound_m` beyond the
-/// measured one; returns how many moved.
+/// Draws vertices towards the camera until the surface is at none of the places that
+/// [`outside_max_m`] looks at more than `bound_m` beyond the measured one; returns how many moved.
 ///
 /// Where a face goes too far, by some inverse depth, all its corners come nearer by that much: then
 /// the whole face does. Nothing ever moves away from the camera, so one pass is enough.
