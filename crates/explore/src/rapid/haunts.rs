@@ -12,6 +12,10 @@ const ACTIONS: u32 = 40;
 /// lie all of a maze.
 const LAST_ACTIONS: u32 = 3_000;
 
+/// The same for each haunt, where there are few: a body that gets out of nowhere need not try as long
+/// as one that has all of a maze to itself.
+const LAST_ACTIONS_EACH: u32 = 500;
+
 /// The allowance is doubled so often at most, far more often than it can be reached.
 const MOST_DOUBLINGS: u32 = 12;
 
@@ -70,7 +74,7 @@ impl Haunts {
     /// Nothing comes of acting at a vertex: others come first now; false where they do already, or
     /// where its last turn is over.
     pub fn tire_of(&mut self, vertex: VertexId) -> bool {
-        let (allowed, is_over) = (ACTIONS << self.doubled, self.last_actions >= LAST_ACTIONS);
+        let (allowed, is_over) = (ACTIONS << self.doubled, self.is_over());
         let Some((haunt, _)) = self.of.get(vertex).filter(|_| !is_over) else { return false };
         let tires = self.actions[*haunt] < allowed;
         self.actions[*haunt] = self.actions[*haunt].max(allowed);
@@ -84,7 +88,13 @@ impl Haunts {
 
     /// Whether what is left here is to be given up: it had its turn, and its turns after all others.
     pub fn is_spent(&self, vertex: VertexId) -> bool {
-        self.last_actions >= LAST_ACTIONS && self.actions_at(vertex) >= ACTIONS
+        self.is_over() && self.actions_at(vertex) >= ACTIONS
+    }
+
+    /// Whether the last turns of all places are over.
+    fn is_over(&self) -> bool {
+        let each = LAST_ACTIONS_EACH.saturating_mul(self.actions.len() as u32);
+        self.last_actions >= each.min(LAST_ACTIONS)
     }
 
     fn actions_at(&self, vertex: VertexId) -> u32 {
@@ -94,7 +104,7 @@ impl Haunts {
     /// Nothing is left elsewhere: every place gets as much again; false where that is over.
     pub fn relent(&mut self) -> bool {
         let may = !self.actions.is_empty()
-            && self.last_actions < LAST_ACTIONS
+            && !self.is_over()
             && self.doubled < MOST_DOUBLINGS;
         self.doubled += u32::from(may);
         may
@@ -152,7 +162,7 @@ mod tests {
 
     #[test]
     fn every_place_gets_as_much_again_when_nothing_is_left_elsewhere_and_then_is_spent() {
-        let (_, mut haunts) = chain(2, 2.0, 1.0);
+        let (_, mut haunts) = chain(10, 2.0, 1.0);
         let here = VertexId(0);
         act(&mut haunts, 0, ACTIONS);
         assert!(haunts.can_wait(here) && haunts.relent() && !haunts.can_wait(here));
@@ -167,6 +177,17 @@ mod tests {
         }
         assert_eq!(acted, LAST_ACTIONS);
         assert!(!haunts.relent() && !haunts.is_spent(VertexId(1)));
+    }
+
+    #[test]
+    fn where_there_are_few_haunts_the_last_turn_is_shorter() {
+        let (_, mut haunts) = chain(2, 2.0, 1.0);
+        act(&mut haunts, 0, ACTIONS);
+        assert!(haunts.relent());
+        act(&mut haunts, 0, 2 * LAST_ACTIONS_EACH - 1);
+        assert!(!haunts.is_spent(VertexId(0)));
+        act(&mut haunts, 0, 1);
+        assert!(haunts.is_spent(VertexId(0)) && !haunts.relent());
     }
 
     #[test]
