@@ -4,6 +4,7 @@ use std::path::Path;
 
 use maps3d::reduce::{HoleMethod, Method};
 use serde::Deserialize;
+use worlds::DepthRoom;
 
 use super::ConfigError;
 use super::typed::{self, Checked};
@@ -18,8 +19,8 @@ pub struct Ladder {
     #[serde(default)]
     pub depth: LadderDepth,
     /// The made-up room that is looked at where no image is given.
-    #[serde(default)]
-    pub room: LadderRoom,
+    #[serde(default, with = "RoomTable")]
+    pub room: DepthRoom,
     /// How it is reduced.
     pub ladder: Rungs,
 }
@@ -42,36 +43,16 @@ impl Default for LadderDepth {
     }
 }
 
-/// A made-up room with boxes.
-#[derive(Clone, Copy, Debug, PartialEq, Deserialize)]
-#[serde(deny_unknown_fields, default)]
-pub struct LadderRoom {
-    /// Columns of the image.
-    pub columns: usize,
-    /// Rows of the image.
-    pub rows: usize,
-    /// The seed of the noise.
-    pub seed: u32,
-    /// Standard deviation of the noise, as a share of the depth.
-    pub noise_share: f64,
-    /// Share of the pixels that see nothing.
-    pub speckle_share: f64,
-    /// Whether a round patch sees nothing either.
-    pub patch: bool,
-}
-
-impl Default for LadderRoom {
-    fn default() -> Self {
-        let room = worlds::DepthRoom::default();
-        Self {
-            columns: room.columns,
-            rows: room.rows,
-            seed: room.seed,
-            noise_share: room.noise_share,
-            speckle_share: room.speckle_share,
-            patch: room.patch,
-        }
-    }
+/// The table of the made-up room.
+#[derive(Deserialize)]
+#[serde(remote = "DepthRoom", deny_unknown_fields, default = "DepthRoom::default")]
+struct RoomTable {
+    columns: usize,
+    rows: usize,
+    seed: u32,
+    noise_share: f64,
+    speckle_share: f64,
+    patch: bool,
 }
 
 /// Methods, and numbers of vertices.

@@ -47,8 +47,7 @@ fn limit(key: &str, property: &mut Map<String, Value>) {
         Some(Value::Object(items)) => items,
         _ => property,
     };
-    let has = |node: &Map<String, Value>, key: &str| node.contains_key(key);
-    let signed = !has(node, "minimum") && !has(node, "exclusiveMinimum");
+    let signed = !node.contains_key("minimum") && !node.contains_key("exclusiveMinimum");
     if node.get("exclusiveMinimum").and_then(Value::as_f64) == Some(0.0) {
         node.remove("exclusiveMinimum");
         node.insert("minimum".into(), json!(least));
@@ -56,7 +55,7 @@ fn limit(key: &str, property: &mut Map<String, Value>) {
     if signed {
         node.insert("minimum".into(), json!(-coordinate));
     }
-    if !has(node, "maximum") {
+    if !node.contains_key("maximum") {
         node.insert("maximum".into(), json!(if signed { coordinate } else { most }));
     }
 }

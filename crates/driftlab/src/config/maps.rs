@@ -3,6 +3,11 @@
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+/// How far off the optimiser takes a recognised place to be, unless told otherwise, metres.
+const PLACE_SIGMA_M: f64 = 0.01;
+/// The same of its heading, degrees.
+const PLACE_SIGMA_DEG: f64 = 0.1;
+
 /// Which representations are built.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, default)]
@@ -173,8 +178,8 @@ impl Default for GridCorrectedMap {
             cell_m: 1.0,
             cell_margin: 0.05,
             occlusion_gap_m: 1.0,
-            place_sigma_m: 0.01,
-            place_sigma_deg: 0.1,
+            place_sigma_m: PLACE_SIGMA_M,
+            place_sigma_deg: PLACE_SIGMA_DEG,
         }
     }
 }
@@ -206,8 +211,8 @@ impl Default for CorrectedPolygonsMap {
             occlusion_gap_m: 1.0,
             wall_closing_m: 0.3,
             sliver_m: 0.4,
-            place_sigma_m: 0.01,
-            place_sigma_deg: 0.1,
+            place_sigma_m: PLACE_SIGMA_M,
+            place_sigma_deg: PLACE_SIGMA_DEG,
         }
     }
 }
@@ -263,8 +268,8 @@ impl Default for ActiveAreaMap {
             strict_margin_m: 0.01,
             wall_closing_m: 0.3,
             sliver_m: 0.4,
-            place_sigma_m: 0.01,
-            place_sigma_deg: 0.1,
+            place_sigma_m: PLACE_SIGMA_M,
+            place_sigma_deg: PLACE_SIGMA_DEG,
         }
     }
 }

@@ -52,7 +52,7 @@ pub use error::ConfigError;
 pub use experiment::{Config, Start};
 pub use generators::{CavesWorld, CorridorWorld, MazeWorld, Pillar, PillarsWorld, RoomsWorld};
 pub use graph_sweep::{GraphSweep, OutlierSweep, Sweep, SyntheticGraph, is_graph_sweep};
-pub use ladder::{Ladder, LadderDepth, LadderRoom, Rungs};
+pub use ladder::{Ladder, LadderDepth, Rungs};
 pub use load::{Loaded, Overrides};
 pub use maps::{
     ActiveAreaMap, CorrectedPolygonsMap, ExtendedMap, GridCorrectedMap, GridMap, Maps, Occlusion,
@@ -68,4 +68,4 @@ pub use world::{
     ImageWorld, MapServerWorld, MovingAiWorld, PaperMap, PaperWorld, PolygonsWorld, ThesisMap,
     ThesisWorld, World,
 };
-pub use world_file::world_kind_of_file;
+pub use world_file::{never_ends, world_kind_of_file};

@@ -11,6 +11,11 @@ use super::{ConfigError, Place};
 /// Bytes at the start of a file that tell its kind.
 const HEAD: u64 = 1 << 16;
 
+/// Whether reading this might wait for ever: a pipe or a device. Folders fail by themselves.
+pub fn never_ends(path: &Path) -> bool {
+    std::fs::metadata(path).is_ok_and(|about| !about.is_file() && !about.is_dir())
+}
+
 /// The key under `[world]` that reads this file, told by its content: `map_server`, `image` or
 /// `moving_ai`.
 ///
@@ -18,8 +23,7 @@ const HEAD: u64 = 1 << 16;
 /// A file that cannot be read, or of another kind.
 pub fn world_kind_of_file(path: &Path) -> Result<&'static str, ConfigError> {
     let expected = "a map: map_server YAML, PGM, PNG or MovingAI .map";
-    // Reading a pipe would wait for ever.
-    if std::fs::metadata(path).is_ok_and(|about| !about.is_file() && !about.is_dir()) {
+    if never_ends(path) {
         return Err(ConfigError::Value {
             place: Place::file(path),
             found: "no ordinary file".into(),

@@ -17,7 +17,7 @@ use worlds::{World2d, WorldError, generate, paper, thesis};
 use super::Input;
 use crate::config::{
     Config, ConfigError, ImageWorld, Loaded, MapServerWorld, MovingAiWorld, PaperMap,
-    PolygonsWorld, Start, ThesisMap, World,
+    PolygonsWorld, Start, ThesisMap, World, never_ends,
 };
 
 /// The random stream of the start's jitter; far from those of robots and generators.
@@ -84,11 +84,16 @@ pub fn build_place(loaded: &Loaded) -> Result<Place, ConfigError> {
     }
 }
 
+/// How far a place is from the nearest wall, metres.
+fn room_m(world: &World2d, at: &Point2) -> f64 {
+    world.caster().distance_to(at)
+}
+
 /// The body has to fit where it starts.
 fn check_body(world: &World2d, loaded: &Loaded) -> Result<(), ConfigError> {
     let radius_m = loaded.config.robot.radius_m;
     let at = Point2::from(world.world_from_start().translation);
-    let room_m = world.caster().distance_to(&at);
+    let room_m = room_m(world, &at);
     if room_m == 0.0 {
         let message = format!("the start ({:.3} m, {:.3} m) stands on a wall", at.x, at.y);
         return Err(ConfigError::World { place: loaded.place("start"), message });
@@ -126,8 +131,7 @@ struct Files {
 
 impl Files {
     fn read(&mut self, path: &Path, expected: &str) -> Result<Vec<u8>, Trouble> {
-        // Reading a pipe would wait for ever.
-        if fs::metadata(path).is_ok_and(|about| !about.is_file() && !about.is_dir()) {
+        if never_ends(path) {
             let message = format!("is no ordinary file; expected {expected}");
             return Err(Trouble::File { path: path.to_owned(), message });
         }
@@ -213,20 +217,20 @@ fn jittered(world: World2d, config: &Config) -> Result<World2d, Trouble> {
         jitter_m * (2.0 * share - 1.0)
     };
     let start = world.world_from_start();
+    let from = Point2::from(start.translation);
+    let fits = |at: &Point2| room_m(&world, at) > config.robot.radius_m;
     let mut error = WorldError::NoFreeSpace;
     for _ in 0..JITTER_TRIES {
         let mut moved = start;
         moved.translation.x += even();
         moved.translation.y += even();
-        let between = Point2::from(start.translation);
+        let to = Point2::from(moved.translation);
         // A start beyond a thin wall would be in another room.
-        if world.caster().blocked(&between, &Point2::from(moved.translation)) {
+        if world.caster().blocked(&from, &to) {
             continue;
         }
         // Nor is one of use where the body does not fit, if it fits at the start itself.
-        let radius_m = config.robot.radius_m;
-        let room_m = |at| world.caster().distance_to(&Point2::from(at));
-        if room_m(moved.translation) <= radius_m && room_m(start.translation) > radius_m {
+        if !fits(&to) && fits(&from) {
             continue;
         }
         match world.with_start(moved) {

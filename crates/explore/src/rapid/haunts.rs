@@ -103,9 +103,7 @@ impl Haunts {
 
     /// Nothing is left elsewhere: every place gets as much again; false where that is over.
     pub fn relent(&mut self) -> bool {
-        let may = !self.actions.is_empty()
-            && !self.is_over()
-            && self.doubled < MOST_DOUBLINGS;
+        let may = !self.actions.is_empty() && !self.is_over() && self.doubled < MOST_DOUBLINGS;
         self.doubled += u32::from(may);
         may
     }

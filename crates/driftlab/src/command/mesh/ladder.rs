@@ -12,7 +12,6 @@ use maps3d::{DepthEvent, Maps3dError, ViewOptions, polyhedron_with};
 use probe::Probe;
 use sensing::DepthImage;
 use serde_json::{Value, json};
-use worlds::DepthRoom;
 
 use super::super::failure::Failure;
 use super::super::files::free;
@@ -58,20 +57,9 @@ pub(super) fn ladder(args: &LadderArgs, out: &Out) -> Result<(), Failure> {
         .clone()
         .unwrap_or_else(|| PathBuf::from("recordings").join(format!("{}.rrd", config.name)));
     free(&record, args.force)?;
-    let room = config.room;
     let (image, from): (DepthImage, String) = match &args.depth {
         Some(path) => (depth_input::depth(path, &args.file, out)?.0, path.display().to_string()),
-        None => {
-            let room = DepthRoom {
-                columns: room.columns,
-                rows: room.rows,
-                seed: room.seed,
-                noise_share: room.noise_share,
-                speckle_share: room.speckle_share,
-                patch: room.patch,
-            };
-            (room.image(), "a made-up room".to_owned())
-        }
+        None => (config.room.image(), "a made-up room".to_owned()),
     };
     let refused = |error: Maps3dError| Failure::Input(anyhow!("{from}: {error}"));
     // What is wrong with the image shows before a file is made.
