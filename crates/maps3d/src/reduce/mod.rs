@@ -6,7 +6,7 @@
 //! | `hole/` | triangulation of the holes (\[Mos15\] 3.6) |
 //! | `quadric.rs` | edges collapsed by error quadrics |
 //! | `inverse_depth/` | the project's own: vertices put in |
-//! | `conservative.rs` | the one-sided bound, for each of them |
+//! | `conservative/` | the one-sided bound, for each of them |
 //! | `heap.rs` | the indexed heap (\[Mos15\] 5.3) |
 
 mod conservative;
@@ -92,7 +92,8 @@ pub struct ReduceOptions {
     pub method: Method,
     /// When it ends.
     pub stop: Stop,
-    /// The surface lies at most so far beyond the measured one, metres; any distance where `None`.
+    /// The surface lies at most so far beyond the measured one, along any ray of the image, metres; any
+    /// distance where `None`.
     pub conservative_m: Option<f64>,
     /// Numbers of vertices at which the mesh is shown to the probe.
     pub ladder: Vec<usize>,
