@@ -2,18 +2,16 @@
 
 use super::InverseDepth;
 use super::delaunay::{Delaunay, NONE};
-use super::scan::{Count, LiftedPlane, Sheet, scan};
+use super::scan::Sheet;
+use super::summed_distance::SummedDistance;
 use crate::image::FilledImage;
 use crate::triangulate::orient;
 
 /// What is known of the faces from one round to the next.
 pub(super) struct Flips<'a> {
-    image: &'a FilledImage,
-    sheet: &'a Sheet,
+    distance: SummedDistance<'a>,
     /// Inverse depth of each vertex.
     inverse: &'a [f64],
-    options: &'a InverseDepth,
-    cap_m: f64,
     costs: Vec<f32>,
     /// Faces that are new since they were last looked at.
     fresh: Vec<bool>,
@@ -28,9 +26,9 @@ impl<'a> Flips<'a> {
         inverse: &'a [f64],
         options: &'a InverseDepth,
     ) -> Self {
-        let cap_m = options.cap_at(mesh.pixels.len());
+        let distance = SummedDistance::new(image, sheet, options, mesh.pixels.len());
         let fresh = vec![true; mesh.corners.len()];
-        let mut flips = Self { image, sheet, inverse, options, cap_m, costs: Vec::new(), fresh };
+        let mut flips = Self { distance, inverse, costs: Vec::new(), fresh };
         flips.costs = mesh.corners.iter().map(|&corners| flips.cost_of(mesh, corners)).collect();
         flips
     }
@@ -87,14 +85,8 @@ impl<'a> Flips<'a> {
         (first + second < 0.999 * before).then_some([first, second])
     }
 
-    #[expect(clippy::cast_possible_truncation, reason = "an order, not a measurement")]
     fn cost_of(&self, mesh: &Delaunay, corners: [u32; 3]) -> f32 {
         let pixels = corners.map(|corner| mesh.pixels[corner as usize]);
-        let at = corners.map(|corner| self.inverse[corner as usize]);
-        let plane = LiftedPlane::through(self.image.camera(), pixels, at);
-        let emphasis = plane.emphasis(at, self.options.edge_on);
-        let (cap_m, missing) = ((self.cap_m / emphasis) as f32, self.options.missing_weight as f32);
-        let found = scan(self.sheet, pixels, &plane, &Count { cap_m, missing, stride: 1 });
-        found.sum_m * emphasis as f32
+        self.distance.of_m(pixels, corners.map(|corner| self.inverse[corner as usize]))
     }
 }

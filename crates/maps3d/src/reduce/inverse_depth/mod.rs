@@ -8,6 +8,7 @@
 //! | `guide.rs` | the image that vertices are chosen by: a median of nine |
 //! | `delaunay.rs` | a Delaunay triangulation that grows pixel by pixel, in whole numbers |
 //! | `scan.rs` | the distance of every pixel of a face from its lifted plane |
+//! | `summed_distance.rs` | what a face costs: the summed distance of its pixels |
 //! | `grow.rs` | greedy insertion |
 //! | `thin.rs` | vertices taken out again, for few of them |
 //! | `flips.rs` | sides turned where that brings faces nearer to the pixels |
@@ -19,6 +20,7 @@ mod flips;
 mod grow;
 mod guide;
 mod scan;
+mod summed_distance;
 mod thin;
 
 pub(in crate::reduce) use delaunay::in_circle;

@@ -1,7 +1,8 @@
 //! Vertices taken out again, where that costs least.
 
 use super::InverseDepth;
-use super::scan::{Count, LiftedPlane, Sheet, scan};
+use super::scan::Sheet;
+use super::summed_distance::SummedDistance;
 use crate::image::FilledImage;
 use crate::reduce::heap::IndexedHeap;
 use crate::reduce::hole::{self, HoleMethod, Scratch};
@@ -26,11 +27,8 @@ pub(super) fn thin(
 ) -> ImageMesh {
     let inverse: Vec<f64> = mesh.depths_m.iter().map(|depth_m| 1.0 / depth_m).collect();
     let mut thinner = Thinner {
-        image,
-        sheet,
-        options,
+        distance: SummedDistance::new(image, sheet, options, count),
         inverse,
-        cap_m: options.cap_at(count),
         rings: Rings::of_mesh(image, mesh),
         scratch: Scratch::default(),
     };
@@ -51,11 +49,8 @@ pub(super) fn thin(
 }
 
 struct Thinner<'a> {
-    image: &'a FilledImage,
-    sheet: &'a Sheet,
-    options: &'a InverseDepth,
+    distance: SummedDistance<'a>,
     inverse: Vec<f64>,
-    cap_m: f64,
     rings: Rings,
     scratch: Scratch,
 }
@@ -79,15 +74,8 @@ impl Thinner<'_> {
         Some(after - before)
     }
 
-    /// The summed distance of the pixels of a face, none counted above the cap, metres.
-    #[expect(clippy::cast_possible_truncation, reason = "an order, not a measurement")]
     fn distance_m(&self, corners: [u32; 3]) -> f32 {
         let pixels = corners.map(|corner| self.rings.pixel(corner));
-        let at = corners.map(|corner| self.inverse[corner as usize]);
-        let plane = LiftedPlane::through(self.image.camera(), pixels, at);
-        let emphasis = plane.emphasis(at, self.options.edge_on);
-        let (cap_m, missing) = ((self.cap_m / emphasis) as f32, self.options.missing_weight as f32);
-        let found = scan(self.sheet, pixels, &plane, &Count { cap_m, missing, stride: 1 });
-        found.sum_m * emphasis as f32
+        self.distance.of_m(pixels, corners.map(|corner| self.inverse[corner as usize]))
     }
 }
