@@ -2,7 +2,7 @@
 //!
 //! | file | what |
 //! |---|---|
-//! | `rings.rs` | the triangulation: the neighbours of each vertex, in order |
+//! | `rings/` | the triangulation: the neighbours of each vertex, in order |
 //! | `contribution.rs` | centroid, least squares, relevance on the border (3.5.2, 3.5.3, 3.7) |
 //! | `mend.rs` | a vertex taken out, its hole closed |
 //! | `remove.rs` | the loop of scenario 5 |
