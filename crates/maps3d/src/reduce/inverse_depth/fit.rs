@@ -3,7 +3,8 @@
 use sensing::Camera;
 
 use super::InverseDepth;
-use super::scan::{HEADS, LANES, Lanes, LiftedPlane, RAMP, Sheet, each};
+use super::plane::LiftedPlane;
+use super::scan::{HEADS, LANES, Lanes, RAMP, Sheet, each};
 use crate::image::FilledImage;
 use crate::triangulate::{ImageMesh, orient, rows_of};
 

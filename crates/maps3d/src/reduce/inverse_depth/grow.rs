@@ -6,99 +6,15 @@ use super::delaunay::Delaunay;
 use super::fit::fit;
 use super::flips::Flips;
 use super::guide::median_of_nine;
-use super::scan::{Count, LiftedPlane, Scanned, Sheet, scan, worst_pixel};
+use super::options::InverseDepth;
+use super::plane::{LiftedPlane, farthest_pixel};
+use super::scan::{Count, Scanned, Sheet, scan, worst_pixel};
 use super::thin::thin;
 use crate::DepthEvent;
 use crate::image::{FilledImage, Pixel};
 use crate::reduce::Stop;
 use crate::reduce::heap::IndexedHeap;
 use crate::triangulate::{ImageMesh, orient};
-
-/// How the project's own reduction chooses.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct InverseDepth {
-    /// No pixel counts for more than this, metres: what is far off belongs to another surface. Below 400
-    /// vertices it is larger, in proportion.
-    pub cap_m: f64,
-    /// How much a face's summed distance counts against its largest: 0 the largest alone, 1 the sum.
-    pub sum_weight: f64,
-    /// Distances count more for faces seen under an angle whose sine is below this.
-    pub edge_on: f64,
-    /// Fewer than 400 vertices are chosen by a median of nine pixels, which lone outliers do not get
-    /// through; more of them need what is narrow.
-    pub median: bool,
-    /// Of faces above 4,096 pixels every second row is looked at, above 16,384 every fourth.
-    pub skip_rows: bool,
-    /// Rounds in which sides are turned.
-    pub flip_rounds: usize,
-    /// How much the distance of a missing pixel counts, from 0 to 1: it was never measured, and lies at
-    /// the far distance by agreement.
-    pub missing_weight: f64,
-    /// Depths of vertices are fitted to all pixels; pixels farther off than this hardly count,
-    /// metres. Not at all where it is 0.
-    pub fit_m: f64,
-}
-
-impl Default for InverseDepth {
-    fn default() -> Self {
-        Self {
-            cap_m: 0.3,
-            sum_weight: 0.7,
-            edge_on: 0.1,
-            median: true,
-            skip_rows: true,
-            flip_rounds: 2,
-            fit_m: 0.05,
-            missing_weight: 0.02,
-        }
-    }
-}
-
-/// Below so many vertices, more are put in and thinned out; and the cap is larger, in proportion: a face that covers several surfaces has
-/// most of its pixels beyond any small cap, and the sum would no longer tell good from bad.
-const COARSE: f64 = 400.0;
-
-impl InverseDepth {
-    /// The cap while there are so many vertices, metres.
-    pub(super) fn cap_at(&self, vertices: usize) -> f64 {
-        self.cap_m * (COARSE / vertices as f64).max(1.0)
-    }
-
-    fn is_few(count: usize) -> bool {
-        (count as f64) < COARSE
-    }
-
-    /// How many vertices are put in where `count` are asked for: four times as many as are few.
-    fn first_of(count: usize) -> usize {
-        if Self::is_few(count) { (4 * count).min(2 * COARSE as usize) } else { count }
-    }
-
-    /// Of how many rows of a face one is looked at while vertices are put in, by twice its area.
-    fn stride_of(&self, doubled_area: i64) -> usize {
-        let [half, quarter] = [8_192, 32_768];
-        if !self.skip_rows || doubled_area < half {
-            1
-        } else if doubled_area < quarter {
-            2
-        } else {
-            4
-        }
-    }
-
-    /// Vertices at measured depths, chosen by their distance alone: what a bound on the error asks for.
-    fn exact() -> Self {
-        Self {
-            cap_m: f64::INFINITY,
-            sum_weight: 0.0,
-            edge_on: 0.0,
-            median: false,
-            skip_rows: false,
-            flip_rounds: 0,
-            fit_m: 0.0,
-            missing_weight: 1.0,
-        }
-    }
-}
 
 /// Reduces an image to `stop.vertices()`, or until no pixel is farther than `stop.error_m()` from the
 /// plane of its face.
@@ -146,7 +62,10 @@ where
         if most.is_some_and(|most| vertices >= most) {
             break;
         }
-        let Some((triangle, pixel)) = grown.worst(stop.error_m().unwrap_or(0.0)) else { break };
+        let bound_m = stop.error_m();
+        let next = grown.worst(bound_m.unwrap_or(0.0));
+        let next = next.or_else(|| bound_m.and_then(|bound_m| grown.beyond(bound_m)));
+        let Some((triangle, pixel)) = next else { break };
         let error_m = f64::from(grown.scans[triangle as usize].worst_m);
         grown.insert(triangle, pixel);
         if probe.on() {
@@ -183,6 +102,9 @@ struct Grown<'a> {
     inverse: Vec<f64>,
     scans: Vec<Scanned>,
     heap: IndexedHeap,
+    /// Faces for which a bound is not yet known to hold to the last digit; none before scans say that it
+    /// holds everywhere.
+    unsure: Option<Vec<u32>>,
 }
 
 impl<'a> Grown<'a> {
@@ -196,7 +118,7 @@ impl<'a> Grown<'a> {
         let at = |&pixel: &_| 1.0 / guide.depth_m(pixel);
         let inverse = mesh.pixels.iter().map(at).collect();
         let (scans, heap) = (Vec::new(), IndexedHeap::default());
-        Self { image, guide, sheet, options, mesh, inverse, scans, heap }
+        Self { image, guide, sheet, options, mesh, inverse, scans, heap, unsure: None }
     }
 
     /// The plane of a face, and how much distances from it count.
@@ -210,11 +132,31 @@ impl<'a> Grown<'a> {
 
     fn measure_changed(&mut self) {
         self.scans.resize(self.mesh.corners.len(), Scanned::default());
+        if let Some(unsure) = &mut self.unsure {
+            unsure.extend(&self.mesh.changed);
+        }
         for at in 0..self.mesh.changed.len() {
             let triangle = self.mesh.changed[at];
             let [a, b, c] = self.mesh.pixels_of(triangle);
             self.measure(triangle, self.options.stride_of(orient(a, b, c)));
         }
+    }
+
+    /// A face with a pixel that is farther off than the bound, once scans find none: these measure in
+    /// single precision. O(pixels) in all.
+    fn beyond(&mut self, bound_m: f64) -> Option<(u32, Pixel)> {
+        let faces = 0..self.mesh.corners.len() as u32;
+        let mut unsure = self.unsure.take().unwrap_or_else(|| faces.collect());
+        let mut found = None;
+        while found.is_none()
+            && let Some(triangle) = unsure.pop()
+        {
+            let (plane, _) = self.plane_of(triangle);
+            let corners = self.mesh.pixels_of(triangle);
+            found = farthest_pixel(self.image, corners, &plane, bound_m).map(|p| (triangle, p));
+        }
+        self.unsure = Some(unsure);
+        found
     }
 
     #[expect(clippy::cast_possible_truncation, reason = "an order, not a measurement")]

@@ -5,8 +5,10 @@
 //!
 //! | file | stage |
 //! |---|---|
+//! | `options.rs` | what it goes by |
 //! | `guide.rs` | the image that vertices are chosen by: a median of nine |
 //! | `delaunay.rs` | a Delaunay triangulation that grows pixel by pixel, in whole numbers |
+//! | `plane.rs` | the lifted plane of a face, and the distance of a pixel from it |
 //! | `scan.rs` | the distance of every pixel of a face from its lifted plane |
 //! | `summed_distance.rs` | what a face costs: the summed distance of its pixels |
 //! | `grow.rs` | greedy insertion |
@@ -19,11 +21,13 @@ mod fit;
 mod flips;
 mod grow;
 mod guide;
+mod options;
+mod plane;
 mod scan;
 mod summed_distance;
 mod thin;
 
 pub(in crate::reduce) use delaunay::in_circle;
-pub use grow::InverseDepth;
 pub(super) use grow::grow;
-pub(crate) use scan::LiftedPlane;
+pub use options::InverseDepth;
+pub(crate) use plane::LiftedPlane;

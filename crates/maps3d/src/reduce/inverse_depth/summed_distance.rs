@@ -1,7 +1,8 @@
 //! The summed distance of the pixels of a face: what turning sides and taking out vertices go by.
 
 use super::InverseDepth;
-use super::scan::{Count, LiftedPlane, Sheet, scan};
+use super::plane::LiftedPlane;
+use super::scan::{Count, Sheet, scan};
 use crate::image::{FilledImage, Pixel};
 
 /// How the distances of the pixels of a face are summed.
