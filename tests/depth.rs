@@ -113,7 +113,25 @@ fn bad_input_gets_one_message_and_leaves_nothing() {
     let desk = framed();
     desk.put("short.pgm", "P5 80 60 65535\nshort");
     desk.put("what.txt", "hello");
+    std::fs::write(desk.path("photo.png"), PHOTO).expect("writable");
     for (arguments, words) in [
+        (vec!["photo.png"], "a PNG image of RGB, 8 bits, expected grey of 16 bits"),
+        (vec!["frame.pgm", "--error", "inf"], "--error: found inf, expected a distance above 0 m"),
+        (vec!["frame.pgm", "--error", "0"], "--error: found 0, expected a distance above 0 m"),
+        (vec!["frame.pgm", "--far", "1e300"], "--far: found 1.00000e300, expected"),
+        (vec!["frame.pgm", "--vertices", "99999999999"], "at most 2^28"),
+        (vec!["frame.pgm", "--vertices", "9", "--ladder", "20,0"], "--ladder: found 0"),
+        (
+            vec!["frame.pgm", "--vertices", "9", "--conservative", "inf"],
+            "--conservative: found inf",
+        ),
+        (vec!["frame.pgm", "--vertices", "9", "--conservative", "-1"], "--conservative: found -1"),
+        (
+            vec!["frame.pgm", "--depth-scale", "1e300"],
+            "--depth-scale: found a scale of 1.00000e300",
+        ),
+        (vec!["frame.pgm", "--size", "0,4"], "--size: found 0,4"),
+        (vec!["frame.pgm", "--record", "nowhere/a.rrd"], "the folder nowhere does not exist"),
         (vec!["missing.png"], "missing.png"),
         (vec!["short.pgm"], "byte 15: found 5 bytes"),
         (vec!["what.txt"], "no known kind of depth image"),
@@ -136,6 +154,47 @@ fn bad_input_gets_one_message_and_leaves_nothing() {
         assert!(text.contains(words), "{arguments:?}: {text}");
         assert!(output.stdout.is_empty());
         assert!(!desk.path("out.ply").exists());
+    }
+}
+
+/// A picture of one pixel.
+const PHOTO: &[u8] = b"\x89PNG\x0d\x0a\x1a\x0a\x00\x00\x00\x0dIHDR\x00\x00\x00\x01\x00\x00\x00\x01\x08\x02\x00\x00\x00\x90wS\xde\x00\x00\x00\x0cIDATx\x9cc`db\x06\x00\x00\x0e\x00\x07\xd7o\xe4x\x00\x00\x00\x00IEND\xaeB`\x82";
+
+#[test]
+fn what_was_typed_is_checked_before_anything_else() {
+    let desk = framed();
+    for (arguments, words) in [
+        (vec!["frame.pgm", "--error", "inf"], "--error"),
+        (vec!["frame.pgm", "--crop", "40"], "40 are cropped"),
+        (vec!["missing.png", "--error", "0"], "--error"),
+        (vec!["missing.png", "-o", "nowhere/out.ply"], "the folder nowhere does not exist"),
+    ] {
+        let mut all = vec!["mesh", "polyhedron"];
+        all.extend(&arguments);
+        let output = desk.driftlab(&all);
+        let text = stderr(&output);
+        assert_eq!(code(&output), 2, "{arguments:?}: {text}");
+        assert!(text.contains(words) && !text.contains("warning"), "{arguments:?}: {text}");
+        assert_eq!(text.lines().count(), 1, "{text}");
+    }
+    assert!(!desk.path("nowhere").exists());
+}
+
+#[test]
+fn a_line_of_pixels_is_a_polyhedron() {
+    let desk = framed();
+    let floats: Vec<u8> =
+        [1.0_f32, 2.0, f32::NAN, 3.0].into_iter().flat_map(f32::to_le_bytes).collect();
+    std::fs::write(desk.path("line.raw"), floats).expect("writable");
+    for size in ["4,1", "1,4"] {
+        let line = ["mesh", "polyhedron", "line.raw", "--camera", "4,4,2,0", "--size", size];
+        let output = desk.driftlab(&line);
+        assert!(stderr(&output).contains("as wide as its pixels"), "{}", stderr(&output));
+        let told = json(&desk.driftlab(&[&line[..], &["--json"]].concat()));
+        assert_eq!((&told["closed"], &told["manifold"]), (&true.into(), &true.into()));
+        assert_eq!(told["self_intersecting"], false);
+        assert!(told["volume_m3"].as_f64().expect("a volume") > 0.0);
+        assert_eq!(told["mesh_vertices"], 8);
     }
 }
 

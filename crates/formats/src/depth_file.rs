@@ -22,7 +22,7 @@ pub struct DepthFileOptions {
     pub size: Option<[usize; 2]>,
 }
 
-/// Reads a PNG, PGM or TIFF image, a PCD or PLY cloud, told by content; or with a size, floats without
+/// Reads a grey PNG of 16 bits, a PGM or TIFF image, a PCD or PLY cloud, told by content; or with a size, floats without
 /// a header, told by the extension `raw`, `f32`, `bin` or `dat`.
 ///
 /// # Errors
@@ -36,7 +36,9 @@ pub fn read(
     let image = |pixels| Ok(DepthFile::Image(pixels));
     match bytes {
         [b'I', b'I', b'*', 0, ..] | [b'M', b'M', 0, b'*', ..] => image(tiff::read(bytes, scale)?),
-        _ if bytes.starts_with(b"\x89PNG") => image(depth::from_levels(&png::read(bytes)?, scale)?),
+        _ if bytes.starts_with(b"\x89PNG") => {
+            image(depth::from_levels(&png::read_levels(bytes)?, scale)?)
+        }
         [b'P', b'2' | b'5', ..] => image(depth::from_levels(&pgm::read(bytes)?, scale)?),
         _ if bytes.starts_with(b"ply") => Ok(DepthFile::Cloud(ply_cloud::read(bytes)?)),
         _ => match (extension.map(str::to_ascii_lowercase).as_deref(), options.size) {
@@ -52,7 +54,7 @@ pub fn read(
             }
             _ => {
                 let found = "no known kind of depth image";
-                let expected = "PNG, PGM, TIFF, PCD, PLY, or floats as .raw";
+                let expected = "grey PNG of 16 bits, PGM, TIFF, PCD, PLY, or floats as .raw";
                 Err(FormatError::unexpected(Position::Byte(0), found, expected))
             }
         },

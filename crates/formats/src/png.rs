@@ -76,6 +76,36 @@ pub fn read(bytes: &[u8]) -> Result<GrayImage, FormatError> {
     if alpha { image.with_transparent(transparent) } else { Ok(image) }
 }
 
+/// Reads a PNG image of levels: grey of 16 bits, with or without alpha.
+///
+/// Colours and 8 bits are a picture of something, and are refused by name: as depths they would mean
+/// nothing.
+///
+/// # Errors
+/// As [`read`], and [`FormatError::Unexpected`] for any other kind of pixels.
+pub fn read_levels(bytes: &[u8]) -> Result<GrayImage, FormatError> {
+    let mut decoder =
+        Decoder::new_with_limits(Cursor::new(bytes), Limits { bytes: MAX_DECODED_BYTES });
+    if let Ok(info) = decoder.read_header_info() {
+        let (colour, bits) = (info.color_type, info.bit_depth as u8);
+        let is_grey = matches!(colour, ColorType::Grayscale | ColorType::GrayscaleAlpha);
+        if !is_grey || bits != 16 {
+            let colour = match colour {
+                ColorType::Grayscale => "grey",
+                ColorType::GrayscaleAlpha => "grey with alpha",
+                ColorType::Rgb => "RGB",
+                ColorType::Rgba => "RGB with alpha",
+                ColorType::Indexed => "a palette",
+            };
+            // After the signature, the head of the first chunk, width and height.
+            let found = format!("a PNG image of {colour}, {bits} bits");
+            let expected = "grey of 16 bits: a depth image, not a picture";
+            return Err(FormatError::unexpected(Position::Byte(24), found, expected));
+        }
+    }
+    read(bytes)
+}
+
 /// Writes the image as grey PNG, with alpha only when a pixel is transparent.
 ///
 /// Up to `white` 255 the levels are scaled to 8 bits, above to 16 bits.
@@ -199,6 +229,25 @@ mod tests {
         let indexed = read(&indexed).expect("palette");
         assert_eq!(indexed.levels(), [255, 0, 76, 9]);
         assert_eq!(indexed.transparent(), [false, false, false, true]);
+    }
+
+    #[test]
+    fn a_picture_holds_no_levels() {
+        use BitDepth::{Eight, Four, Sixteen};
+        for (colour, depth, data, words) in [
+            (ColorType::Rgb, Eight, &[1, 2, 3][..], "RGB, 8 bits"),
+            (ColorType::Rgba, Sixteen, &[0; 8], "RGB with alpha, 16 bits"),
+            (ColorType::Indexed, Four, &[0], "a palette, 4 bits"),
+            (ColorType::Grayscale, Eight, &[7], "grey, 8 bits"),
+        ] {
+            let error = read_levels(&encoded(colour, depth, (1, 1), data)).expect_err("a picture");
+            let text = error.to_string();
+            assert!(text.starts_with("byte 24: found") && text.contains(words), "{text}");
+            assert!(text.contains("expected grey of 16 bits"), "{text}");
+        }
+        let grey = encoded(ColorType::Grayscale, Sixteen, (1, 1), &[1, 2]);
+        assert_eq!(read_levels(&grey).expect("levels").levels(), [258]);
+        assert!(read_levels(b"\x89PNG and no more").is_err());
     }
 
     #[test]

@@ -2,11 +2,20 @@
 
 use thiserror::Error;
 
+/// A number as it may have been typed: huge and tiny ones are not written out.
+fn short(value: f64) -> String {
+    if value == 0.0 || (1e-5..1e15).contains(&value.abs()) {
+        value.to_string()
+    } else {
+        format!("{value:e}")
+    }
+}
+
 /// What is wrong with an image, a cloud, an option or a mesh, with what was found and what fits.
 #[derive(Clone, Debug, PartialEq, Error)]
 #[non_exhaustive]
 pub enum Maps3dError {
-    /// The image is not between 2 x 2 and 16,384 x 16,384 pixels once it is cropped.
+    /// The image is not between 1 x 1 and 16,384 x 16,384 pixels once it is cropped.
     #[error(
         "an image of {columns} x {rows} pixels, of which {crop} are cropped on each side: expected \
          {least} to {most} columns and rows to be left"
@@ -33,7 +42,8 @@ pub enum Maps3dError {
     },
     /// The camera cannot be used.
     #[error(
-        "a camera of fx {fx}, fy {fy}, cx {cx}, cy {cy}: expected finite numbers, fx and fy not 0"
+        "a camera of fx {}, fy {}, cx {}, cy {}: expected finite numbers, fx and fy not 0",
+        short(*fx), short(*fy), short(*cx), short(*cy)
     )]
     Camera {
         /// Focal length along columns, pixels.
@@ -46,7 +56,7 @@ pub enum Maps3dError {
         cy: f64,
     },
     /// An option is out of its range.
-    #[error("{option} is {found}, expected {expected}")]
+    #[error("{option} is {}, expected {expected}", short(*found))]
     Option {
         /// The option.
         option: &'static str,
@@ -100,4 +110,18 @@ pub enum Maps3dError {
     /// The polyhedron was refused.
     #[error(transparent)]
     Solid(#[from] solid::SolidError),
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn numbers_are_told_as_they_are_typed() {
+        for (value, text) in
+            [(0.0, "0"), (-1.5, "-1.5"), (1e300, "1e300"), (2e-9, "2e-9"), (f64::INFINITY, "inf")]
+        {
+            assert_eq!(short(value), text);
+        }
+    }
 }

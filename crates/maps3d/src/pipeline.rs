@@ -37,6 +37,24 @@ impl Default for ViewOptions {
     }
 }
 
+impl ViewOptions {
+    /// Checks what can be told without an image.
+    ///
+    /// # Errors
+    /// [`Maps3dError::Option`] for what is out of its range.
+    pub fn check(&self) -> Result<(), Maps3dError> {
+        self.prepare.check()?;
+        if let Some(occlusion) = &self.occlusion {
+            occlusion.check()?;
+        }
+        if !(0.0..=1.0).contains(&self.frontier_share) {
+            let (found, expected) = (self.frontier_share, "a share from 0 to 1");
+            return Err(Maps3dError::Option { option: "frontier_share", found, expected });
+        }
+        self.reduce.as_ref().map_or(Ok(()), ReduceOptions::check)
+    }
+}
+
 /// What came of an image.
 #[derive(Clone, Debug)]
 pub struct Made {
@@ -70,13 +88,7 @@ pub fn polyhedron_with<P>(
 where
     P: for<'e> Probe<DepthEvent<'e>>,
 {
-    if let Some(occlusion) = &options.occlusion {
-        occlusion.check()?;
-    }
-    if !(0.0..=1.0).contains(&options.frontier_share) {
-        let (found, expected) = (options.frontier_share, "a share from 0 to 1");
-        return Err(Maps3dError::Option { option: "frontier_share", found, expected });
-    }
+    options.check()?;
     let image = prepare(image, &options.prepare)?;
     probe.emit(DepthEvent::Prepared { image: &image });
     let squares = FrontierSquares::of(&image, options.occlusion.as_ref());

@@ -7,8 +7,22 @@ use anyhow::anyhow;
 use super::failure::Failure;
 use crate::files::replace_file;
 
-/// Refuses to replace a file unless forced to.
+/// Refuses a file that cannot be made: in a folder that is not there, or in the place of another unless
+/// forced to.
 pub(super) fn free(path: &Path, force: bool) -> Result<(), Failure> {
+    let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+    if let Some(folder) = folder.filter(|folder| !folder.is_dir()) {
+        return Err(Failure::Input(anyhow!(
+            "{}: the folder {} does not exist; expected one that does",
+            path.display(),
+            folder.display()
+        )));
+    }
+    vacant(path, force)
+}
+
+/// Refuses to replace a file unless forced to; its folder may have to be made.
+pub(super) fn vacant(path: &Path, force: bool) -> Result<(), Failure> {
     if path.is_dir() {
         return Err(Failure::Input(anyhow!("{}: found a folder, expected a file", path.display())));
     }

@@ -50,12 +50,50 @@ pub struct FilledImage {
     missing_count: usize,
 }
 
+impl PrepareOptions {
+    /// Checks what can be told without an image.
+    ///
+    /// # Errors
+    /// [`Maps3dError::Option`] for a distance out of its range.
+    pub fn check(&self) -> Result<(), Maps3dError> {
+        let near = f64::from(NEAREST_M);
+        if !(near..=f64::from(FARTHEST_M)).contains(&self.far_m) {
+            let expected = "a distance from 0.001 to 1e6 m";
+            return Err(Maps3dError::Option { option: "far_m", found: self.far_m, expected });
+        }
+        if self.max_m.is_nan() || self.max_m < near {
+            let expected = "a distance of at least 0.001 m, or infinity";
+            return Err(Maps3dError::Option { option: "max_m", found: self.max_m, expected });
+        }
+        Ok(())
+    }
+
+    /// The columns and rows that are left of an image.
+    ///
+    /// # Errors
+    /// [`Maps3dError::ImageSize`] where they are none, or too many.
+    pub fn size_left(&self, columns: usize, rows: usize) -> Result<[usize; 2], Maps3dError> {
+        let (least, most, crop) = (1, LARGEST_SIDE, self.crop);
+        let left = |side: usize| {
+            side.checked_sub(crop.saturating_mul(2)).filter(|left| (least..=most).contains(left))
+        };
+        match (left(columns), left(rows)) {
+            (Some(width), Some(height)) => Ok([width, height]),
+            _ => Err(Maps3dError::ImageSize { columns, rows, crop, least, most }),
+        }
+    }
+}
+
 /// Crops the image, tells invalid values and places missing data at the far distance.
 ///
 /// Cropping by n leaves `columns - 2 n` columns; the thesis kept one more of each (541 of 640 at
 /// 50). Missing is what is not finite or not between [`NEAREST_M`] and [`FARTHEST_M`], and what is
 /// beyond `max_m`. A missing pixel gets the depth `far_m` on its own ray (eq. 5.1). Readings beyond
 /// `far_m` stay where they are. O(pixels).
+///
+/// The rays of a single row or column lie in one plane and enclose nothing. What is one pixel wide is
+/// taken over the whole width of its pixels: two rows (columns) of the same depths, half a pixel to each
+/// side of the one that was measured, which so lies on the surface.
 ///
 /// # Errors
 /// [`Maps3dError`] for a size, camera or option out of its range.
@@ -68,33 +106,27 @@ pub fn prepare(image: &DepthImage, options: &PrepareOptions) -> Result<FilledIma
     if columns == 0 || !image.depths_m.len().is_multiple_of(columns) {
         return Err(Maps3dError::ImageShape { depths: image.depths_m.len(), columns });
     }
-    let least = 2;
-    let left = |side: usize| side.checked_sub(crop.saturating_mul(2)).filter(|left| *left >= least);
-    let sizes = (left(columns), left(rows));
-    let (Some(width @ ..=LARGEST_SIDE), Some(height @ ..=LARGEST_SIDE)) = sizes else {
-        return Err(Maps3dError::ImageSize { columns, rows, crop, least, most: LARGEST_SIDE });
-    };
-    let (near, far) = (f64::from(NEAREST_M), f64::from(FARTHEST_M));
-    if !(near..=far).contains(&options.far_m) {
-        let expected = "a distance from 0.001 to 1e6 m";
-        return Err(Maps3dError::Option { option: "far_m", found: options.far_m, expected });
-    }
-    if options.max_m.is_nan() || options.max_m < near {
-        let expected = "a distance of at least 0.001 m, or infinity";
-        return Err(Maps3dError::Option { option: "max_m", found: options.max_m, expected });
-    }
+    options.check()?;
+    let [width, height] = options.size_left(columns, rows)?;
+    let [wide, high] = [width, height].map(|side| if side == 1 { 2 } else { 1 });
+    let mut camera = image.camera.cropped(crop, crop);
+    camera.cx += 0.5 * (wide - 1) as f64;
+    camera.cy += 0.5 * (high - 1) as f64;
+    let pixels = width * wide * height * high;
     let mut filled = FilledImage {
-        columns: width,
-        rows: height,
-        camera: image.camera.cropped(crop, crop),
-        depths_m: Vec::with_capacity(width * height),
-        missing: vec![0; (width * height).div_ceil(64)],
+        columns: width * wide,
+        rows: height * high,
+        camera,
+        depths_m: Vec::with_capacity(pixels),
+        missing: vec![0; pixels.div_ceil(64)],
         missing_count: 0,
     };
     #[expect(clippy::cast_possible_truncation, reason = "depths are kept as sensors give them")]
-    let (far_m, max_m) = (options.far_m as f32, options.max_m.min(far) as f32);
-    for row in image.depths_m.chunks_exact(columns).skip(crop).take(height) {
-        for &depth_m in &row[crop..crop + width] {
+    let (far_m, max_m) = (options.far_m as f32, options.max_m.min(f64::from(FARTHEST_M)) as f32);
+    let kept = image.depths_m.chunks_exact(columns).skip(crop).take(height);
+    for row in kept.flat_map(|row| std::iter::repeat_n(row, high)) {
+        let kept = row[crop..crop + width].iter();
+        for &depth_m in kept.flat_map(|depth_m| std::iter::repeat_n(depth_m, wide)) {
             let measured = (NEAREST_M..=max_m).contains(&depth_m);
             if !measured {
                 let at = filled.depths_m.len();
@@ -225,16 +257,30 @@ mod tests {
     }
 
     #[test]
+    fn a_line_of_pixels_is_as_wide_as_they_are() {
+        let fine = PrepareOptions::default();
+        let row = prepare(&image(3, vec![1.0, 0.0, 3.0]), &fine).expect("a row");
+        assert_eq!((row.columns(), row.rows(), row.missing_count()), (3, 2, 2));
+        assert_eq!(row.depths_m(), [1.0, 8.0, 3.0, 1.0, 8.0, 3.0]);
+        let column = prepare(&image(1, vec![1.0, 0.0, 3.0]), &fine).expect("a column");
+        assert_eq!((column.columns(), column.rows()), (2, 3));
+        assert_eq!(column.depths_m(), [1.0, 1.0, 8.0, 8.0, 3.0, 3.0]);
+        let one = prepare(&image(1, vec![4.0]), &fine).expect("one pixel");
+        assert_eq!((one.columns(), one.rows()), (2, 2));
+        // The ray of the pixel, at column 0 and row 0, is the middle of the two.
+        let before = image(1, vec![4.0]).camera.slope_of(0.0, 0.0);
+        assert_eq!(one.camera().slope_of(0.5, 0.5), before);
+        assert_eq!(row.camera().slope_of(2.0, 0.5), image(3, vec![]).camera.slope_of(2.0, 0.0));
+        assert_eq!(column.camera().slope_of(0.5, 2.0), image(1, vec![]).camera.slope_of(0.0, 2.0));
+    }
+
+    #[test]
     fn sizes_cameras_and_options_are_checked() {
         let fine = PrepareOptions::default();
         let crop = |crop| PrepareOptions { crop, ..Default::default() };
-        for (columns, count, options) in [
-            (1, 9, fine),
-            (9, 9, fine),
-            (4, 16, crop(2)),
-            (3, 9, crop(usize::MAX / 2)),
-            (0, 0, fine),
-        ] {
+        for (columns, count, options) in
+            [(1, 0, fine), (4, 16, crop(2)), (3, 9, crop(usize::MAX / 2)), (0, 0, fine)]
+        {
             assert!(prepare(&image(columns, vec![1.0; count]), &options).is_err(), "{columns}");
         }
         assert!(prepare(&image(3, vec![1.0; 10]), &fine).is_err());

@@ -24,7 +24,7 @@ pub use inverse_depth::InverseDepth;
 pub(crate) use inverse_depth::LiftedPlane;
 pub use removal::Contribution;
 
-use crate::image::FilledImage;
+use crate::image::{FARTHEST_M, FilledImage, LARGEST_SIDE};
 use crate::triangulate::ImageMesh;
 use crate::{DepthEvent, Maps3dError};
 
@@ -66,10 +66,10 @@ impl Method {
 /// When a reduction ends.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Stop {
-    /// At so many vertices, at least 4.
+    /// At so many vertices, at least 4; at once where the image has fewer pixels.
     Vertices(usize),
     /// Before a vertex contributes more than this, or with `inverse_depth` when no pixel is farther
-    /// from its face; metres.
+    /// from its face; metres, above 0.
     Error(f64),
 }
 
@@ -104,6 +104,39 @@ impl ReduceOptions {
     pub fn new(method: Method, stop: Stop) -> Self {
         Self { method, stop, conservative_m: None, ladder: Vec::new() }
     }
+
+    /// Checks what can be told without an image.
+    ///
+    /// # Errors
+    /// [`Maps3dError::Option`] for what is out of its range.
+    pub fn check(&self) -> Result<(), Maps3dError> {
+        let refuse = |option, found, expected| Err(Maps3dError::Option { option, found, expected });
+        // What the largest image holds, and no camera sees farther.
+        let (most, far_m) = (LARGEST_SIDE * LARGEST_SIDE, f64::from(FARTHEST_M));
+        let is_count = |count: usize| (4..=most).contains(&count);
+        match self.stop {
+            Stop::Vertices(count) if !is_count(count) => {
+                let expected = "at least the 4 corners of the image, at most 2^28 vertices";
+                return refuse("vertices", count as f64, expected);
+            }
+            Stop::Error(error_m) if !(error_m > 0.0 && error_m <= far_m) => {
+                return refuse("error", error_m, "a distance above 0 m, up to 1e6 m");
+            }
+            _ => {}
+        }
+        if let Some(&count) = self.ladder.iter().find(|&&count| !is_count(count)) {
+            return refuse("ladder", count as f64, "numbers of 4 to 2^28 vertices");
+        }
+        if let Some(bound_m) = self.conservative_m
+            && !(0.0..=far_m).contains(&bound_m)
+        {
+            return refuse("conservative", bound_m, "a distance from 0 to 1e6 m");
+        }
+        match &self.method {
+            Method::InverseDepth(own) => own.check(),
+            _ => Ok(()),
+        }
+    }
 }
 
 /// Reduces the full grid of an image to a mesh over the same image.
@@ -114,7 +147,7 @@ impl ReduceOptions {
 /// and for the conservative mode, which draws vertices towards the camera.
 ///
 /// # Errors
-/// [`Maps3dError::Option`] for a count below 4, a bound that is negative or no number.
+/// [`Maps3dError::Option`] as [`ReduceOptions::check`].
 pub fn reduce(image: &FilledImage, options: &ReduceOptions) -> Result<ImageMesh, Maps3dError> {
     reduce_with(image, options, &mut Off)
 }
@@ -131,7 +164,7 @@ pub fn reduce_with<P>(
 where
     P: for<'e> Probe<DepthEvent<'e>>,
 {
-    check(options)?;
+    options.check()?;
     let mut mesh = match &options.method {
         Method::InverseDepth(own) => {
             inverse_depth::grow(image, own, &options.stop, &options.ladder, probe)
@@ -167,40 +200,4 @@ where
     }
     probe.emit(DepthEvent::Reduced { image, mesh: &mesh });
     Ok(mesh)
-}
-
-fn check(options: &ReduceOptions) -> Result<(), Maps3dError> {
-    let refuse = |option, found, expected| Err(Maps3dError::Option { option, found, expected });
-    match options.stop {
-        Stop::Vertices(count) if count < 4 => {
-            return refuse("vertices", count as f64, "at least the 4 corners of the image");
-        }
-        Stop::Error(error_m) if error_m.is_nan() || error_m < 0.0 => {
-            return refuse("error", error_m, "a distance from 0 m up");
-        }
-        _ => {}
-    }
-    if let Some(bound_m) = options.conservative_m
-        && (bound_m.is_nan() || bound_m < 0.0)
-    {
-        return refuse("conservative", bound_m, "a distance from 0 m up");
-    }
-    if let Method::InverseDepth(own) = &options.method {
-        if own.cap_m.is_nan() || own.cap_m <= 0.0 {
-            return refuse("cap_m", own.cap_m, "a distance above 0 m");
-        }
-        if !(0.0..=1.0).contains(&own.sum_weight) {
-            return refuse("sum_weight", own.sum_weight, "a share from 0 to 1");
-        }
-        if !(0.0..=1.0).contains(&own.edge_on) {
-            return refuse("edge_on", own.edge_on, "a sine from 0 to 1");
-        }
-        if !(0.0..=1.0).contains(&own.missing_weight) {
-            return refuse("missing_weight", own.missing_weight, "a share from 0 to 1");
-        }
-        if own.fit_m.is_nan() || own.fit_m < 0.0 {
-            return refuse("fit_m", own.fit_m, "a distance from 0 m up");
-        }
-    }
-    Ok(())
 }

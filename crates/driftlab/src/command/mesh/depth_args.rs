@@ -9,8 +9,10 @@ use maps3d::image::PrepareOptions;
 use maps3d::reduce::{HoleMethod, InverseDepth, Method, ReduceOptions, Stop};
 use maps3d::triangulate::Occlusion;
 use maps3d::{Maps3dError, ViewOptions};
+use sensing::Camera;
 
 use super::super::failure::Failure;
+use super::super::graph::numbers::shown;
 
 /// What happens to points of a cloud that share a place.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -72,7 +74,7 @@ pub(in crate::command) struct DepthFileArgs {
         allow_hyphen_values = true
     )]
     pub(super) camera: Option<[f64; 4]>,
-    /// Units of the file per metre [default: 1000; 1 for .raw]; clouds are in metres
+    /// Units of the file per metre, 1e-9 to 1e9 [default: 1000; 1 for .raw]; clouds are in metres
     #[arg(long, value_name = "UNITS")]
     pub(super) depth_scale: Option<f64>,
     /// Columns and rows of floats without a header
@@ -86,14 +88,14 @@ pub(in crate::command) struct DepthFileArgs {
 #[derive(Debug, Args)]
 #[command(group(ArgGroup::new("end").args(["vertices", "error"])))]
 pub(in crate::command) struct DepthArgs {
-    /// The depth image: PNG of 16 bits, PGM, TIFF, PCD, PLY, or floats without a header as .raw
+    /// The depth image: grey PNG of 16 bits, PGM, TIFF, PCD, PLY, or floats without a header as .raw
     pub(super) depth: PathBuf,
     #[command(flatten)]
     pub(super) file: DepthFileArgs,
-    /// Pixels cut off on each side
+    /// Pixels cut off on each side; at least one column and one row must be left
     #[arg(long, value_name = "N", default_value_t = 0)]
     pub(super) crop: usize,
-    /// Depth at which missing data is placed, metres
+    /// Depth at which missing data is placed, metres from 0.001 to 1e6
     #[arg(long, value_name = "M", default_value_t = 8.0)]
     pub(super) far: f64,
     /// Readings beyond this depth are missing, metres
@@ -114,11 +116,11 @@ pub(in crate::command) struct DepthArgs {
         requires = "end"
     )]
     pub(super) reduce: MethodName,
-    /// Reduce to so many vertices
+    /// Reduce to so many vertices, from 4 up; images with fewer pixels keep them all
     #[arg(long, value_name = "N")]
     pub(super) vertices: Option<usize>,
     /// Reduce as far as no vertex that is removed contributes more, or with inverse-depth as far as no
-    /// pixel is farther from its face, metres
+    /// pixel is farther from its face; metres, above 0 up to 1e6
     #[arg(long, value_name = "M")]
     pub(super) error: Option<f64>,
     /// How holes are triangulated
@@ -130,7 +132,8 @@ pub(in crate::command) struct DepthArgs {
         requires = "end"
     )]
     pub(super) hole: HoleName,
-    /// Let the reduced volume reach at most so far beyond the measured one, metres
+    /// Let the reduced volume reach at most so far beyond the measured one, along any ray, metres from 0
+    /// to 1e6
     #[arg(long, value_name = "M", requires = "end")]
     pub(super) conservative: Option<f64>,
     /// Show the mesh at these numbers of vertices in the recording
@@ -142,13 +145,42 @@ pub(in crate::command) struct DepthArgs {
 }
 
 /// What is wrong with the image, or with what was typed.
-pub(super) fn refused(from: &str, error: &Maps3dError) -> Failure {
+pub(super) fn refused(from: &dyn std::fmt::Display, error: &Maps3dError) -> Failure {
     match error {
         Maps3dError::Option { option, found, expected } => {
             let flag = option.trim_end_matches("_m").replace('_', "-");
-            Failure::Input(anyhow!("--{flag}: found {found}, expected {expected}"))
+            Failure::Input(anyhow!("--{flag}: found {}, expected {expected}", shown(*found)))
         }
         other => Failure::Input(anyhow!("{from}: {other}")),
+    }
+}
+
+/// The least and the most units per metre: a million kilometres, and a millionth of a millimetre.
+const SCALES: std::ops::RangeInclusive<f64> = 1e-9..=1e9;
+
+impl DepthFileArgs {
+    /// Refuses numbers that fit no file.
+    pub fn check(&self) -> Result<(), Failure> {
+        let refuse = |text: String| Err(Failure::Input(anyhow!(text)));
+        if let Some([fx, fy, cx, cy]) = self.camera
+            && !Camera::new(fx, fy, cx, cy).is_usable()
+        {
+            let [fx, fy, cx, cy] = [fx, fy, cx, cy].map(shown);
+            return refuse(format!(
+                "--camera: found fx {fx}, fy {fy}, cx {cx}, cy {cy}, expected finite numbers, fx and \
+                 fy not 0"
+            ));
+        }
+        if let Some(scale) = self.depth_scale.filter(|scale| !SCALES.contains(scale)) {
+            return refuse(format!(
+                "--depth-scale: found a scale of {}, expected 1e-9 to 1e9 units per metre",
+                shown(scale)
+            ));
+        }
+        if let Some([columns, rows]) = self.size.filter(|size| size.contains(&0)) {
+            return refuse(format!("--size: found {columns},{rows}, expected at least 1,1"));
+        }
+        Ok(())
     }
 }
 

@@ -5,22 +5,48 @@ use std::time::Instant;
 
 use anyhow::anyhow;
 use formats::depth_file::{self, DepthFile, DepthFileOptions};
-use maps3d::image::{CloudOptions, Duplicates, depth_image_of};
+use maps3d::image::{CloudOptions, Duplicates, PrepareOptions, depth_image_of};
 use sensing::{Camera, DepthImage};
 
 use super::super::failure::Failure;
 use super::super::out::Out;
-use super::depth_args::{DepthFileArgs, DuplicatesName};
+use super::depth_args::{self, DepthFileArgs, DuplicatesName};
 
 /// The focal length of the first Kinect, pixels, for an image of 640 columns.
 const KINECT_FOCAL_PX: f64 = 525.0;
 
-/// Reads the file; also how long it took.
-pub(super) fn depth(
+/// A depth image, and how it was taken.
+pub(super) struct DepthInput {
+    pub image: DepthImage,
+    pub secs: f64,
+    /// The camera was neither given nor told by the file.
+    camera_is_usual: bool,
+}
+
+/// Says what was taken for granted, once nothing that was typed is in the way of the image.
+pub(super) fn note(
+    read: &DepthInput,
+    options: &PrepareOptions,
     path: &Path,
-    args: &DepthFileArgs,
     out: &Out,
-) -> Result<(DepthImage, f64), Failure> {
+) -> Result<(), Failure> {
+    let image = &read.image;
+    let left = options.size_left(image.columns, image.rows());
+    let [columns, rows] = left.map_err(|error| depth_args::refused(&path.display(), &error))?;
+    if read.camera_is_usual {
+        let Camera { fx, fy, cx, cy } = image.camera;
+        out.note(&format!("warning: no --camera: a Kinect's is taken, {fx},{fy},{cx},{cy}"));
+    }
+    if columns.min(rows) == 1 {
+        out.note(
+            "note: a single line of pixels encloses nothing: it is taken as wide as its pixels",
+        );
+    }
+    Ok(())
+}
+
+/// Reads the file.
+pub(super) fn depth(path: &Path, args: &DepthFileArgs, out: &Out) -> Result<DepthInput, Failure> {
     let start = Instant::now();
     let bytes = std::fs::read(path).map_err(|error| {
         Failure::Input(anyhow!("{}: {error}; expected a depth image", path.display()))
@@ -34,13 +60,13 @@ pub(super) fn depth(
         |error: &dyn std::fmt::Display| Failure::Input(anyhow!("{}: {error}", path.display()));
     let file = depth_file::read(&bytes, extension, &options).map_err(|e| input(&e))?;
     let camera = args.camera.map(|[fx, fy, cx, cy]| Camera::new(fx, fy, cx, cy));
+    let camera_is_usual = camera.is_none() && matches!(file, DepthFile::Image(_));
     let image = match file {
         DepthFile::Image(pixels) => {
             let camera = camera.unwrap_or_else(|| {
                 let f = KINECT_FOCAL_PX * pixels.columns as f64 / 640.0;
                 let middle = |side: usize| (side as f64 - 1.0) / 2.0;
                 let (cx, cy) = (middle(pixels.columns), middle(pixels.rows));
-                out.note(&format!("warning: no --camera: a Kinect's is taken, {f},{f},{cx},{cy}"));
                 Camera::new(f, f, cx, cy)
             });
             DepthImage::new(pixels.columns, camera, pixels.depths_m)
@@ -60,7 +86,7 @@ pub(super) fn depth(
             image
         }
     };
-    Ok((image, start.elapsed().as_secs_f64()))
+    Ok(DepthInput { image, secs: start.elapsed().as_secs_f64(), camera_is_usual })
 }
 
 /// Floats are metres, whole numbers millimetres.

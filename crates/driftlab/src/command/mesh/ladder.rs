@@ -14,7 +14,7 @@ use sensing::DepthImage;
 use serde_json::{Value, json};
 
 use super::super::failure::Failure;
-use super::super::files::free;
+use super::super::files::vacant;
 use super::super::graph::numbers::shown;
 use super::super::out::Out;
 use super::args::LadderArgs;
@@ -56,9 +56,14 @@ pub(super) fn ladder(args: &LadderArgs, out: &Out) -> Result<(), Failure> {
         .record
         .clone()
         .unwrap_or_else(|| PathBuf::from("recordings").join(format!("{}.rrd", config.name)));
-    free(&record, args.force)?;
+    vacant(&record, args.force)?;
     let (image, from): (DepthImage, String) = match &args.depth {
-        Some(path) => (depth_input::depth(path, &args.file, out)?.0, path.display().to_string()),
+        Some(path) => {
+            args.file.check()?;
+            let read = depth_input::depth(path, &args.file, out)?;
+            depth_input::note(&read, &view(&config, None).prepare, path, out)?;
+            (read.image, path.display().to_string())
+        }
         None => (config.room.image(), "a made-up room".to_owned()),
     };
     let refused = |error: Maps3dError| Failure::Input(anyhow!("{from}: {error}"));

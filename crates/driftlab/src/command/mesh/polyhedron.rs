@@ -20,9 +20,14 @@ pub(super) fn polyhedron(args: &PolyhedronArgs, out: &Out) -> Result<(), Failure
     let target = args.output.target()?;
     let depth = &args.depth;
     let path = depth.depth.display().to_string();
-    let (image, secs_read) = depth_input::depth(&depth.depth, &depth.file, out)?;
     let refused = |error: Maps3dError| depth_args::refused(&path, &error);
+    // What was typed comes first: it costs nothing to check.
     let options = depth.options();
+    depth.file.check()?;
+    options.check().map_err(refused)?;
+    let read = depth_input::depth(&depth.depth, &depth.file, out)?;
+    depth_input::note(&read, &options.prepare, &depth.depth, out)?;
+    let (image, secs_read) = (read.image, read.secs);
     let mut clock = Clock::default();
     let made = polyhedron_with(&image, &options, &mut clock).map_err(refused)?;
     let quality = measure(&made.image, &made.mesh);
