@@ -3,10 +3,13 @@
 //! | file | what |
 //! |---|---|
 //! | `join.rs` | the surface joined to the camera (\[Mos15\] 3.8) |
+//! | `validity.rs` | closed, oriented, 2-manifold and free of crossings, by the proof in the image plane |
 //! | `star.rs` | membership by direction, in constant time |
 
 mod join;
 mod star;
+mod validity;
 
 pub use join::{join, volume_m3};
 pub use star::StarView;
+pub use validity::validity;
