@@ -4,7 +4,7 @@ use std::time::Instant;
 
 use instrument::{DepthRecording, DepthRecordingOptions};
 use maps3d::quality::{Quality, Spread, measure};
-use maps3d::view::volume_m3;
+use maps3d::view::{validity, volume_m3};
 use maps3d::{DepthEvent, Made, Maps3dError, polyhedron_with};
 use probe::Probe;
 use serde_json::{Value, json};
@@ -30,8 +30,13 @@ pub(super) fn polyhedron(args: &PolyhedronArgs, out: &Out) -> Result<(), Failure
     let (image, secs_read) = (read.image, read.secs);
     let mut clock = Clock::default();
     let made = polyhedron_with(&image, &options, &mut clock).map_err(refused)?;
+    let start = Instant::now();
+    let validity = validity(&made.image, &made.mesh, &made.polyhedron);
+    let secs_check = start.elapsed().as_secs_f64();
+    let start = Instant::now();
     let quality = measure(&made.image, &made.mesh);
-    let told = Told::of(&made.polyhedron);
+    let secs_measure = start.elapsed().as_secs_f64();
+    let told = Told::known(&made.polyhedron, validity);
     let mut json = told.json();
     add(&mut json, &quality, &made);
     json["file"] = path.clone().into();
@@ -44,6 +49,8 @@ pub(super) fn polyhedron(args: &PolyhedronArgs, out: &Out) -> Result<(), Failure
     json["secs_triangulate"] = triangulate.into();
     json["secs_reduce"] = reduce.into();
     json["secs_polyhedron"] = joined.into();
+    json["secs_check"] = secs_check.into();
+    json["secs_measure"] = secs_measure.into();
     if let Some(target) = &target {
         target.write(&made.polyhedron)?;
     }
@@ -68,7 +75,7 @@ pub(super) fn polyhedron(args: &PolyhedronArgs, out: &Out) -> Result<(), Failure
         "seconds",
         format!(
             "read {secs_read:.4}, triangulate {triangulate:.4}, reduce {reduce:.4}, polyhedron \
-             {joined:.4}"
+             {joined:.4}, check {secs_check:.4}, measure {secs_measure:.4}"
         ),
     ));
     if let Some(record) = &args.output.recording.record {

@@ -16,7 +16,12 @@ pub(super) struct Told<'a> {
 
 impl<'a> Told<'a> {
     pub fn of(mesh: &'a Polyhedron) -> Self {
-        Self { mesh, validity: check(mesh) }
+        Self::known(mesh, check(mesh))
+    }
+
+    /// A mesh of which it is known how valid it is.
+    pub fn known(mesh: &'a Polyhedron, validity: Validity) -> Self {
+        Self { mesh, validity }
     }
 
     fn count(&self, label: Label) -> usize {
