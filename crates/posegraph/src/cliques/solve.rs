@@ -1,6 +1,7 @@
 //! Steps from the factor, no further down than they change.
 
 use super::tree::CliqueTree;
+use crate::linear::dot;
 
 impl<const D: usize> CliqueTree<D> {
     /// Solves from the roots down; returns the variables whose steps changed.
@@ -72,19 +73,4 @@ fn gain(old: &mut [f64], solution: &[f64], factor: &[f64], rows: usize) -> f64 {
         dot(&factor[column * rows + column..column * rows + width], &old[column..]).powi(2)
     };
     (0..width).map(share).sum()
-}
-
-/// The inner product, summed in eight strands.
-#[inline]
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    let (a_head, a_tail) = a.as_chunks::<8>();
-    let (b_head, b_tail) = b.as_chunks::<8>();
-    let mut strands = [0.0; 8];
-    for (a, b) in a_head.iter().zip(b_head) {
-        for k in 0..8 {
-            strands[k] += a[k] * b[k];
-        }
-    }
-    let tail: f64 = a_tail.iter().zip(b_tail).map(|(a, b)| a * b).sum();
-    strands.iter().sum::<f64>() + tail
 }

@@ -1,13 +1,13 @@
 //! The Cholesky factor of a block matrix, by faer.
 
+use faer::Par;
 use faer::dyn_stack::{MemBuffer, MemStack, StackReq};
 use faer::linalg::cholesky::llt::factor::LltError;
 use faer::sparse::linalg::SymbolicSupernodalParams;
 use faer::sparse::linalg::cholesky::{simplicial, supernodal};
 use faer::sparse::{SparseColMatRef, SymbolicSparseColMat, SymbolicSparseColMatRef};
-use faer::{Conj, MatMut, Par};
 
-use super::BlockPattern;
+use super::{BlockPattern, substitution};
 
 /// When neighbouring supernodes are joined: up to so many columns, and such a share of zeros.
 const RELAX: [(usize, f64); 4] = [(4, 1.0), (16, 0.8), (48, 0.1), (usize::MAX, 0.05)];
@@ -22,6 +22,7 @@ pub(crate) struct BlockCholesky<const D: usize> {
     symbolic: supernodal::SymbolicSupernodalCholesky<usize>,
     values: Vec<f64>,
     memory: MemBuffer,
+    buffer: Vec<f64>,
 }
 
 impl<const D: usize> BlockCholesky<D> {
@@ -51,19 +52,17 @@ impl<const D: usize> BlockCholesky<D> {
             SymbolicSupernodalParams { relax: Some(&RELAX) },
         )
         .ok()?;
-        let scratch = StackReq::any_of(&[
-            supernodal::factorize_supernodal_numeric_llt_scratch::<usize, f64>(
-                &symbolic,
-                Par::Seq,
-                Default::default(),
-            ),
-            symbolic.solve_in_place_scratch::<f64>(1, Par::Seq),
-        ]);
+        let scratch = supernodal::factorize_supernodal_numeric_llt_scratch::<usize, f64>(
+            &symbolic,
+            Par::Seq,
+            Default::default(),
+        );
         let (starts, rows) = lower_rows(pattern);
         let lower =
             SymbolicSparseColMat::new_unsorted_checked(unknowns, unknowns, starts, None, rows);
         let values = vec![0.0; symbolic.len_val()];
-        Some(Self { lower, symbolic, values, memory: MemBuffer::new(scratch) })
+        let memory = MemBuffer::new(scratch);
+        Some(Self { lower, symbolic, values, memory, buffer: Vec::new() })
     }
 
     /// Number of stored numbers in the factor.
@@ -88,15 +87,30 @@ impl<const D: usize> BlockCholesky<D> {
         }
     }
 
+    /// Writes the product of the symmetric matrix with these numbers and a vector, both in
+    /// elimination order.
+    pub(crate) fn multiply(&self, matrix: &[f64], vector: &[f64], product: &mut [f64]) {
+        product.fill(0.0);
+        let (starts, rows) = (self.lower.col_ptr(), self.lower.row_idx());
+        for (column, &x) in vector.iter().enumerate() {
+            let entries = starts[column]..starts[column + 1];
+            let (mut across, mut diagonal) = (0.0, 0.0);
+            for (&row, &entry) in rows[entries.clone()].iter().zip(&matrix[entries]) {
+                // Of a diagonal block both triangles are stored; one counts.
+                if row > column {
+                    product[row] += entry * x;
+                    across += entry * vector[row];
+                } else if row == column {
+                    diagonal = entry;
+                }
+            }
+            product[column] += across + diagonal * x;
+        }
+    }
+
     /// Solves for a right-hand side in elimination order, with the last factor.
     pub(crate) fn solve_in_place(&mut self, rhs: &mut [f64]) {
-        let rows = rhs.len();
-        supernodal::SupernodalLltRef::new(&self.symbolic, &self.values).solve_in_place_with_conj(
-            Conj::No,
-            MatMut::from_column_major_slice_mut(rhs, rows, 1),
-            Par::Seq,
-            MemStack::new(&mut self.memory),
-        );
+        substitution::solve_in_place(&self.symbolic, &self.values, rhs, &mut self.buffer);
     }
 }
 

@@ -12,12 +12,14 @@
 //! Each iteration then writes numbers into the pattern ([`BlockPattern::slot`]) and factorises
 //! them ([`BlockCholesky::factorize`]) with faer's supernodal Cholesky, which spends its time in
 //! dense kernels. On the public pose graphs it takes a half to a tenth of the time of the
-//! simplicial one, for the plane too.
+//! simplicial one, for the plane too. Right-hand sides are solved for here ([`substitution`]).
 
 mod cholesky;
 mod ordering;
 mod pattern;
+mod substitution;
 
 pub(crate) use cholesky::{BlockCholesky, NotPositiveDefinite};
 pub(crate) use ordering::minimum_degree;
 pub(crate) use pattern::{BlockPattern, Slot};
+pub(crate) use substitution::dot;
