@@ -10,7 +10,9 @@
 //!    slowly. The next matrix holds the second derivatives that Gauss-Newton leaves out
 //!    ([`Curvature`](crate::factors::Curvature)): steps are Newton's as long as the matrix is positive
 //!    definite and the cost falls.
-//! 4. Converged where what is left to gain is next to nothing, by the rate of the last iterations.
+//! 4. Converged where what is left to gain is next to nothing, by the rate of the last iterations. The
+//!    step that tells so is found with the factor of the iteration before, where that will do
+//!    ([`last_step`](super::last_step)): one factorisation less.
 //! 5. Where the cost has not been below its best for [`PATIENCE`] iterations, or is not a number,
 //!    damped steps go on from the best poses ([`levenberg_marquardt`]).
 
@@ -43,6 +45,9 @@ const LONGEST: f64 = 4.0;
 /// on the quadratic part, the next ones need not be.
 const BEST_RATE: f64 = 0.05;
 
+/// What the last step may leave unsolved, as a share of what may be left to gain.
+const UNSOLVED: f64 = 0.01;
+
 pub(super) fn run<P: Manifold<D>, const D: usize>(
     problem: &mut Problem<'_, P, D>,
     state: &mut State<P>,
@@ -58,7 +63,13 @@ pub(super) fn run<P: Manifold<D>, const D: usize>(
     // Whether the matrix holds second derivatives, and the iterations in which it must not.
     let mut newton = false;
     let mut plain = 0;
+    // Whether there is a factor, and that of a matrix without damping.
+    let mut undamped = false;
     while state.iterations.len() < limit {
+        let near = undamped && like(last_gain) && last_decrease < CALM * state.cost;
+        if near && let Some(ending) = last_step(problem, state, last_decrease, options, probe) {
+            return ending;
+        }
         let mut promise = if newton { state.undamped(problem) } else { None };
         if newton && promise.is_none() {
             (newton, plain) = (false, PLAIN_AFTER_NEWTON);
@@ -98,6 +109,7 @@ pub(super) fn run<P: Manifold<D>, const D: usize>(
         }
         last_gain = (before - cost) / promise.decrease;
         last_decrease = promise.decrease;
+        undamped = promise.damping == 0.0;
         plain = plain.saturating_sub(1);
         newton = next_newton;
         if cost < best {
@@ -118,6 +130,31 @@ pub(super) fn run<P: Manifold<D>, const D: usize>(
         state.cost = problem.evaluate(&state.poses);
     }
     Termination::IterationLimit { iterations: limit, limit }
+}
+
+/// Takes the last step by the factor of the iteration before, where that tells that it is the last.
+///
+/// Poses and matrix stay as they are where it does not.
+fn last_step<P: Manifold<D>, const D: usize>(
+    problem: &mut Problem<'_, P, D>,
+    state: &mut State<P>,
+    last_decrease: f64,
+    options: &Options,
+    probe: &mut impl for<'e> Probe<OptimizerEvent<'e, P>>,
+) -> Option<Termination> {
+    let before = state.cost;
+    let all = options.relative_decrease * before;
+    let promise = state.by_last_factor(problem, all / BEST_RATE, all * UNSOLVED)?;
+    let ending = ending(&promise, last_decrease, before, options)?;
+    problem.moved(&state.poses, &state.step, &mut state.trial);
+    let cost = problem.evaluate(&state.trial);
+    if cost.is_nan() || cost > before + all * UNSOLVED {
+        return None;
+    }
+    std::mem::swap(&mut state.poses, &mut state.trial);
+    state.cost = cost;
+    state.record(problem, promise, cost, true, before, probe);
+    Some(ending)
 }
 
 /// Whether a gain ratio is near enough to 1 for the model to hold.

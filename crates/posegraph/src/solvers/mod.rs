@@ -22,6 +22,7 @@
 mod dogleg;
 mod event;
 mod gauss_newton;
+mod last_step;
 mod levenberg_marquardt;
 mod loss;
 mod optimize;

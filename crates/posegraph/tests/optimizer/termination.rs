@@ -3,9 +3,10 @@
 use pose::{Se2, Se3};
 use posegraph::factors::chi2;
 use posegraph::initial::odometry;
+use posegraph::synthetic::{Lattice, city, lattice, manhattan};
 use posegraph::{
-    FactorGraph2, Loss, LossOn, Manifold, OptimizerEvent, Options, Solver, Termination, optimize,
-    optimize_with,
+    FactorGraph, FactorGraph2, Loss, LossOn, Manifold, OptimizerEvent, Options, Solver,
+    Termination, optimize, optimize_with,
 };
 use probe::Probe;
 
@@ -128,5 +129,28 @@ fn wild_starts_end_somewhere_and_never_above_where_they_began() {
             let cost = chi2(&graph, &solution.poses, options.error);
             assert!((cost - report.chi2).abs() <= 1e-9 * cost, "{seed} {solver:?}");
         }
+    }
+}
+
+/// The default may end by a step that was not solved to the last digit; nothing of it is seen.
+fn hold_to_the_strictest<P: Manifold<D>, const D: usize>(graph: &FactorGraph<P, D>) {
+    let start = odometry(graph);
+    let found = optimize(graph, &start, &Options::default());
+    let strict = Options { relative_decrease: 0.0, ..Options::default() };
+    let best = optimize(graph, &start, &strict);
+    assert!(found.report.termination.is_converged(), "{:?}", found.report.termination);
+    let gap = found.report.chi2 / best.report.chi2 - 1.0;
+    assert!(gap.abs() < 2e-9, "{gap:e} of {}", best.report.chi2);
+    let apart = found.poses.iter().zip(&best.poses).map(|(a, b)| a.local(b).amax());
+    let apart = apart.fold(0.0, f64::max);
+    assert!(apart < 0.01, "{apart} m or rad apart");
+}
+
+#[test]
+fn the_default_ends_where_the_strictest_threshold_does() {
+    for seed in 1..4 {
+        hold_to_the_strictest(&manhattan(600, seed).graph);
+        hold_to_the_strictest(&city(900, seed).graph);
+        hold_to_the_strictest(&lattice(&Lattice { side: 5, seed, ..Lattice::default() }).graph);
     }
 }

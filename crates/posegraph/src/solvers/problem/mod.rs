@@ -242,6 +242,22 @@ impl<'a, P: Manifold<D>, const D: usize> Problem<'a, P, D> {
         }
     }
 
+    /// Writes the product of the undamped matrix of the last linearisation and a vector, in
+    /// elimination order.
+    pub(crate) fn multiply(&self, vector: &[f64], product: &mut Vec<f64>) {
+        product.resize(vector.len(), 0.0);
+        if let Some(cholesky) = &self.cholesky {
+            cholesky.multiply(&self.matrix, vector, product);
+        }
+    }
+
+    /// Applies the inverse that the last factor stands for, in elimination order.
+    pub(crate) fn apply_factor(&mut self, vector: &mut [f64]) {
+        if let Some(cholesky) = &mut self.cholesky {
+            cholesky.solve_in_place(vector);
+        }
+    }
+
     /// Writes `poses` moved by a step in elimination order.
     pub(crate) fn moved(&self, poses: &[P], step: &[f64], moved: &mut Vec<P>) {
         moved.clear();
