@@ -23,7 +23,7 @@ PEERS = {"g2o": "python", "gtsam": "python", "apex": "binary", "factrs": "binary
 # the cost may still be another one that it minimises.
 ELSEWHERE = 2.0
 
-HEAD = """| graph | poses | iterations | optimise: driftlab | {peers} | of the fastest | process: driftlab | {peers} | of the fastest | chi2 | {peers} |
+HEAD = """| graph | poses | iterations | optimise: driftlab | {peers} | of the fastest | process: driftlab | own start | {peers} | of the fastest | own start | chi2 | {peers} |
 |{lines}"""
 
 
@@ -83,7 +83,7 @@ def main():
     args = parser.parse_args()
     driftlab = str(pathlib.Path(args.driftlab).resolve())
     peers = [name for name in PEERS if getattr(args, name)]
-    print(HEAD.format(peers=" | ".join(peers), lines="---|" * (3 * len(peers) + 8)))
+    print(HEAD.format(peers=" | ".join(peers), lines="---|" * (3 * len(peers) + 10)))
     with tempfile.TemporaryDirectory() as scratch:
         for path in sorted(args.folder.glob("*.g2o")):
             if args.only and args.only not in path.name:
@@ -91,8 +91,8 @@ def main():
             graph = files.read(path)
             source, target = f"{scratch}/in.g2o", f"{scratch}/out.g2o"
             files.write(source, graph, files.odometry(graph))
-            commands = {"driftlab": [driftlab, "graph", "optimize", source, "-o", target, "--force",
-                                     "--init", args.init, "--json"]}
+            ours = [driftlab, "graph", "optimize", source, "-o", target, "--force", "--json"]
+            commands = {"driftlab": [*ours, "--init", args.init], "own start": ours}
             for name in peers:
                 if PEERS[name] == "python":
                     commands[name] = [getattr(args, name), str(HERE / f"run_{name}.py"), source, target]
@@ -115,10 +115,14 @@ def row(name, poses, peers, results):
     ours = results["driftlab"]
     cells = [name, str(poses), str(ours[3])]
     for which in (0, 1):
+        own = results["own start"][1]
         times = [results[peer][which] if peer in results else None for peer in peers]
-        cells += [f"{ours[which] * 1e3:.4g}"] + [f"{time * 1e3:.4g}" if time else "fails" for time in times]
+        cells.append(f"{ours[which] * 1e3:.4g}")
+        cells += [f"{own * 1e3:.4g}"] if which else []
+        cells += [f"{time * 1e3:.4g}" if time else "fails" for time in times]
         ended = [time for peer, time in zip(peers, times) if time and results[peer][2] < ELSEWHERE * ours[2]]
-        cells.append(f"{ours[which] / min(ended):.2f}" if ended else "")
+        for time in [ours[which], own] if which else [ours[which]]:
+            cells.append(f"{time / min(ended):.2f}" if ended else "")
     cells.append(f"{ours[2]:.8g}")
     for peer in peers:
         cells.append(f"{results[peer][2] / ours[2] - 1:+.1e}" if peer in results else "")
