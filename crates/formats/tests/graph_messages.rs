@@ -123,6 +123,19 @@ fn files_without_vertices_sparse_ids_and_other_tags() {
     assert_eq!(unknown, [("`PARAMS_SE2OFFSET`", 1, 1), ("`LANDMARK`", 2, 4)]);
 }
 
+/// Found by the fuzzer: counting the ids of a dense range ran beyond the largest there is.
+#[test]
+fn the_largest_id_is_an_id_like_others() {
+    let (graph, report) = plane("VERTEX_SE2 018446744073709551615 0 -0 0\nVERT\nE2 .137643\n");
+    assert_eq!((graph.ids.as_slice(), report.unknown_tags.len()), (&[u64::MAX][..], 2));
+    let (graph, _) = plane(
+        "VERTEX_SE2 18446744073709551614 0 0 0\nVERTEX_SE2 18446744073709551615 1 0 0\n\
+         EDGE_SE2 18446744073709551614 18446744073709551615 1 0 0 1 0 0 1 0 1\n",
+    );
+    assert_eq!(graph.ids, [u64::MAX - 1, u64::MAX]);
+    assert_eq!((graph.factors[0].from, graph.factors[0].to), (0, 1));
+}
+
 #[test]
 fn odd_lines_are_kept_or_left_out_with_a_warning() {
     let text = "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nVERTEX_SE2 1 2 0 0 7\nFIX 8\n\

@@ -35,7 +35,7 @@ impl Ids {
             table[(id - first) as usize] = 0;
         }
         let mut sorted = Vec::with_capacity(table.len());
-        for (id, index) in (first..).zip(&mut table) {
+        for (id, index) in (first..=last).zip(&mut table) {
             if *index != ABSENT {
                 *index = sorted.len() as u32;
                 sorted.push(id);
