@@ -7,11 +7,13 @@ use posegraph::PoseGraph;
 use probe::{EdgeId, IdVec, Probe, VertexId};
 use sensing::Scan;
 
+use super::apart::unite_apart;
 use super::area::{Area, Links};
-use super::rings::{next, region_of_rings, ring_of, twice_area_m2, winding};
+use super::rings::{box_of, next, region_of_rings, ring_of, twice_area_m2, winding};
+use super::sheets::merge_sheets;
 use super::unite::{United, unite};
 use super::untwist::{Splits, untwist};
-use super::walls::{box_of, settle_along, walls_near};
+use super::walls::{settle_along, walls_near};
 use super::ways::region_inside;
 use super::{Broken, Corner, Twisted};
 use crate::correction::{Correction, CorrectionParams};
@@ -160,7 +162,14 @@ impl ActiveArea {
         // Doubly seen space, before the union (2.7.5).
         let touches = |ring: &[Corner]| ring.iter().any(|corner| active.contains(corner.anchor));
         self.untwist_where(touches, is_active, self.params.twisted, probe);
-        let united = unite(&self.rings, &view, &active, self.params.keep_intersections);
+        let keep_points = self.params.keep_intersections;
+        let mut united = unite(&self.rings, &view, &active, keep_points);
+        if united.is_err() && self.merge_sheets(&active, probe) {
+            united = unite(&self.rings, &view, &active, keep_points);
+        }
+        if united.is_err() {
+            united = unite_apart(&self.rings, &view, &active, keep_points);
+        }
         let united = united.and_then(|united| match holds_robot(&united, &view) {
             true => Ok(united),
             false => Err(Broken::RobotOutside),
@@ -175,6 +184,18 @@ impl ActiveArea {
                 probe.emit(PolygonEvent::Invalid { vertex, why });
             }
         }
+    }
+
+    /// Unites sheets that lie over each other in the area (2.7.3); whether there were any.
+    fn merge_sheets(&mut self, active: &Area, probe: &mut dyn MapProbe) -> bool {
+        let before = self.rings.len();
+        let merged = merge_sheets(&mut self.rings, active, self.params.keep_intersections);
+        for crossing in &merged {
+            let (at, entry) = (crossing.at, crossing.entry);
+            probe.emit(PolygonEvent::Intersected { at, entry });
+            probe.emit(PolygonEvent::Merged { at });
+        }
+        !merged.is_empty() || self.rings.len() < before
     }
 
     /// Settles frontier along walls, both ways between the view and what the area saw before.

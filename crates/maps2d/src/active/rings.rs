@@ -120,3 +120,43 @@ pub(super) fn region_of_rings(rings: &[Vec<Corner>]) -> Region<Tag> {
 pub(super) fn joined(before: RingEdge<Tag>, after: RingEdge<Tag>) -> RingEdge<Tag> {
     if before.label == EdgeLabel::Frontier { before } else { after }
 }
+
+/// The box around a ring.
+pub(super) fn box_of(ring: &[Corner]) -> Option<(Point2, Point2)> {
+    let first = ring.first()?.at;
+    Some(ring.iter().fold((first, first), |(low, high), c| (low.inf(&c.at), high.sup(&c.at))))
+}
+
+/// Whether the boxes around two rings meet.
+pub(super) fn boxes_meet(a: &[Corner], b: &[Corner]) -> bool {
+    let (Some((a_low, a_high)), Some((b_low, b_high))) = (box_of(a), box_of(b)) else {
+        return false;
+    };
+    a_low.x <= b_high.x && b_low.x <= a_high.x && a_low.y <= b_high.y && b_low.y <= a_high.y
+}
+
+#[cfg(test)]
+pub(super) mod tests {
+    use super::*;
+    use crate::volume::EdgeKey;
+
+    /// A ring of frontier, all of it seen from one vertex.
+    pub fn ring(vertex: u32, corners: &[(f64, f64)]) -> Vec<Corner> {
+        let vertex = VertexId(vertex);
+        let tag = Tag { vertex, key: EdgeKey(0), spoke: false };
+        let edge = RingEdge { label: EdgeLabel::Frontier, data: tag };
+        let corner = |&(x, y)| Corner { at: Point2::new(x, y), anchor: vertex, edge };
+        corners.iter().map(corner).collect()
+    }
+
+    /// A box, counter-clockwise.
+    pub fn rectangle(vertex: u32, low: (f64, f64), high: (f64, f64)) -> Vec<Corner> {
+        ring(vertex, &[low, (high.0, low.1), high, (low.0, high.1)])
+    }
+
+    pub fn areas_m2(rings: &[Vec<Corner>]) -> Vec<f64> {
+        let mut areas: Vec<f64> = rings.iter().map(|ring| 0.5 * twice_area_m2(ring)).collect();
+        areas.sort_by(f64::total_cmp);
+        areas
+    }
+}

@@ -70,7 +70,11 @@ pub(super) fn unite(
         for edge in 0..ring.len() {
             let ends = [ring[edge].anchor, ring[next(ring, edge)].anchor];
             if ends.iter().all(|anchor| active.contains(*anchor)) {
-                cross(ring, index, edge, view, &mut found.crossings);
+                let is_active = |side: usize| {
+                    let ends = [view[side].anchor, view[next(view, side)].anchor];
+                    ends.iter().all(|anchor| active.contains(*anchor))
+                };
+                cross(ring, (index, edge), view, is_active, &mut found.crossings);
             }
         }
     }
@@ -97,10 +101,16 @@ pub(super) fn unite(
     Ok(found)
 }
 
-/// The crossings of one edge with all sides of the view.
-fn cross(ring: &[Corner], index: usize, edge: usize, view: &[Corner], out: &mut Vec<Crossing>) {
+/// The crossings of one edge with the sides of the view that count.
+fn cross(
+    ring: &[Corner],
+    (index, edge): (usize, usize),
+    view: &[Corner],
+    counts: impl Fn(usize) -> bool,
+    out: &mut Vec<Crossing>,
+) {
     let (a, b) = (&ring[edge].at, &ring[next(ring, edge)].at);
-    for side in 0..view.len() {
+    for side in (0..view.len()).filter(|&side| counts(side)) {
         let (c, d) = (&view[side].at, &view[next(view, side)].at);
         if !crosses(a, b, c, d) {
             continue;
@@ -131,7 +141,7 @@ fn follow(ring: &[Corner], index: usize, view: &[Corner], crossings: &mut Vec<Cr
             };
             if known.insert(edge) {
                 let before = crossings.len();
-                cross(ring, index, edge, view, crossings);
+                cross(ring, (index, edge), view, |_| true, crossings);
                 if crossings.len() > before {
                     crossed.insert(edge);
                 }

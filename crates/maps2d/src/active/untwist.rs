@@ -1,10 +1,10 @@
 //! Rings that cross themselves are split, and parts that run the wrong way round dealt with
 //! (\[Zie18\] 2.7.5).
 
-use geometry::Point2;
+use geometry::{Point2, Vector2};
 
 use super::Corner;
-use super::rings::{crosses, next, parameters, reversed, twice_area_m2};
+use super::rings::{crosses, next, parameters, reversed, twice_area_m2, winding};
 
 /// What becomes of an upended part.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Default)]
@@ -29,8 +29,9 @@ const LEAST_M2: f64 = 1e-4;
 
 /// Splits a ring at crossings of edges that `counts` holds for, by their first and second corners.
 ///
-/// The ring's own kind, outer or inner, goes on with the part that has most area of that sign; other
-/// parts that run clockwise are inner rings, those that run counter-clockwise are upended.
+/// Parts are judged from the largest on, by what those before them say of a point inside: one that makes
+/// it known twice is upended; one that makes it less than unknown was turned inside out where the ring
+/// is an outer one, and says nothing where it is an inner one. Both kinds stay where they fit.
 /// At most as many splits as there are corners.
 pub(super) fn untwist(
     ring: Vec<Corner>,
@@ -69,34 +70,51 @@ pub(super) fn untwist(
     if splits == 0 {
         return whole;
     }
-    let mut kept = Vec::new();
-    let mut main: Option<(f64, usize)> = None;
-    for (i, ring) in whole.iter().enumerate() {
-        let area = twice_area_m2(ring);
-        let fits = (area > 0.0) == outer;
-        if fits && main.is_none_or(|(best, _)| area.abs() > best) {
-            main = Some((area.abs(), i));
-        }
-    }
-    for (i, ring) in whole.into_iter().enumerate() {
+    // What surrounds an outer ring is unknown, what surrounds an inner one is known.
+    let around = if outer { 0 } else { 1 };
+    whole.sort_by(|a, b| twice_area_m2(b).abs().total_cmp(&twice_area_m2(a).abs()));
+    let mut kept: Vec<Vec<Corner>> = Vec::new();
+    for ring in whole {
         let area = twice_area_m2(&ring);
-        let is_main = main.is_some_and(|(_, index)| index == i);
-        if !is_main && area.abs() < LEAST_M2 {
+        if !kept.is_empty() && area.abs() < LEAST_M2 {
             continue;
         }
-        if is_main || area < 0.0 {
-            kept.push(ring);
-            continue;
-        }
-        match twisted {
-            Twisted::Flip => {
+        let Some(point) = point_inside(&ring) else { continue };
+        let before: i32 = around + kept.iter().map(|ring| winding(ring, &point)).sum::<i32>();
+        let is_outer = area > 0.0;
+        match (is_outer, twisted) {
+            // Known twice.
+            (true, Twisted::Flip) if before >= 1 => {
                 done.flipped += 1;
                 kept.push(reversed(&ring));
             }
-            Twisted::Remove => done.removed += 1,
+            (true, Twisted::Remove) if before >= 1 => done.removed += 1,
+            // A part of what is known that was turned inside out.
+            (false, _) if before <= 0 && outer => {
+                done.flipped += 1;
+                kept.push(reversed(&ring));
+            }
+            // Unknown twice.
+            (false, _) if before <= 0 => done.removed += 1,
+            _ => kept.push(ring),
         }
     }
     kept
+}
+
+/// A point inside a ring that does not cross itself, beside its longest side.
+fn point_inside(ring: &[Corner]) -> Option<Point2> {
+    let along = |i: usize| ring[next(ring, i)].at - ring[i].at;
+    let mut sides: Vec<usize> = (0..ring.len()).collect();
+    sides.sort_by(|&a, &b| along(b).norm_squared().total_cmp(&along(a).norm_squared()));
+    let sign = if twice_area_m2(ring) > 0.0 { 1.0 } else { -1.0 };
+    let beside = |side: usize, share: f64| {
+        let along = along(side);
+        ring[side].at + along * 0.5 + Vector2::new(-along.y, along.x) * (sign * share)
+    };
+    let tried = [0.1, 1e-2, 1e-3, 1e-5].into_iter();
+    let mut points = tried.flat_map(|share| sides.iter().map(move |&side| beside(side, share)));
+    points.find(|point| winding(ring, point) != 0)
 }
 
 /// The first pair of edges that cross, in the order of the ring.
@@ -134,4 +152,72 @@ fn first_crossing(
         }
     }
     first
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::rings::tests::ring;
+    use super::*;
+
+    /// The signed areas of the parts, ascending, and what was done.
+    fn parts(corners: &[(f64, f64)], twisted: Twisted) -> (Vec<f64>, Splits) {
+        let (mut done, mut at) = (Splits::default(), Vec::new());
+        let kept = untwist(ring(0, corners), |_, _| true, twisted, &mut done, &mut at);
+        let mut areas: Vec<f64> = kept.iter().map(|ring| 0.5 * twice_area_m2(ring)).collect();
+        areas.sort_by(f64::total_cmp);
+        (areas, done)
+    }
+
+    /// Two rooms whose neck is so narrow that drift pushed its walls through each other.
+    #[test]
+    fn a_room_behind_a_twisted_neck_stays_known() {
+        let corners = [
+            (0.0, 0.0),
+            (4.0, 0.0),
+            (5.0, 1.1),
+            (7.0, 1.1),
+            (8.0, 0.0),
+            (11.0, 0.0),
+            (11.0, 2.0),
+            (8.0, 2.0),
+            (7.0, 0.9),
+            (5.0, 0.9),
+            (4.0, 2.0),
+            (0.0, 2.0),
+        ];
+        for twisted in [Twisted::Flip, Twisted::Remove] {
+            let (areas, done) = parts(&corners, twisted);
+            assert_eq!(done.splits, 2);
+            // The neck was known, too; it is turned back.
+            assert_eq!((done.flipped, done.removed), (1, 0), "{areas:?}");
+            assert!(areas.len() == 3 && areas.iter().all(|area| *area > 0.0), "{areas:?}");
+        }
+    }
+
+    /// A corridor that came round to its own beginning, and lies on it.
+    #[test]
+    fn what_is_known_twice_is_flipped_or_removed() {
+        let corners = [
+            (0.0, 0.0),
+            (6.0, 0.0),
+            (6.0, 6.0),
+            (-1.0, 6.0),
+            (-1.0, 0.5),
+            (0.5, 0.5),
+            (0.5, 5.0),
+            (5.0, 5.0),
+            (5.0, 1.0),
+            (0.0, 1.0),
+        ];
+        let (areas, done) = parts(&corners, Twisted::Remove);
+        assert_eq!((done.splits, done.flipped, done.removed), (2, 0, 1));
+        assert!(
+            areas.len() == 2 && areas[0] < 0.0 && areas[1] > 0.0,
+            "a room with a hole: {areas:?}"
+        );
+        let (flipped, done) = parts(&corners, Twisted::Flip);
+        assert_eq!((done.flipped, done.removed), (1, 0));
+        let twice_m2 = 0.25;
+        assert!(flipped.iter().any(|area| (area + twice_m2).abs() < 1e-9), "{flipped:?}");
+    }
 }

@@ -7,7 +7,7 @@
 
 use geometry::Point2;
 use geometry::planar::overlay::EdgeLabel;
-use geometry::planar::{EdgeLedger, box_gap, near_segment};
+use geometry::planar::{EdgeLedger, Interval, box_gap, near_segment};
 use pose::Se2;
 use probe::VertexId;
 
@@ -41,17 +41,10 @@ pub(super) fn walls_near(
     out.extend(walls.filter(|wall| box_gap(&wall.from, &wall.to, &low, &high) < radius_m));
 }
 
-/// The box around a ring.
-pub(super) fn box_of(ring: &[Corner]) -> Option<(Point2, Point2)> {
-    let first = ring.first()?.at;
-    Some(ring.iter().fold((first, first), |(low, high), c| (low.inf(&c.at), high.sup(&c.at))))
-}
-
 /// Pieces shorter than this are not cut off, metres.
 const LEAST_PIECE_M: f64 = 1e-3;
 
-/// Marks as free what of a ring's frontier lies within a radius of a wall that another view saw; edges
-/// are cut where that starts and ends.
+/// Marks as free what of a ring's frontier lies within a radius of a wall that another view saw.
 ///
 /// Cost: the frontier edges that `takes` holds for, times the walls.
 pub(super) fn settle_along(
@@ -60,23 +53,42 @@ pub(super) fn settle_along(
     walls: &[Wall],
     radius_m: f64,
 ) {
+    settle(
+        ring,
+        |corner, _| takes(corner),
+        |from, to, spans| {
+            let near = |wall: &&Wall| {
+                wall.seen_from != from.edge.data.vertex
+                    && box_gap(&from.at, &to.at, &wall.from, &wall.to) < radius_m
+            };
+            spans.extend(
+                walls.iter().filter(near).filter_map(|wall| {
+                    near_segment(&from.at, &to.at, &wall.from, &wall.to, radius_m)
+                }),
+            );
+        },
+    );
+}
+
+/// Marks stretches of a ring's frontier as free: `spans` of an edge, by its ends; edges are cut where
+/// that starts and ends.
+pub(super) fn settle(
+    ring: &mut Vec<Corner>,
+    takes: impl Fn(&Corner, &Corner) -> bool,
+    spans: impl Fn(&Corner, &Corner, &mut Vec<Interval>),
+) {
     let mut ledger: EdgeLedger<()> = EdgeLedger::new();
     let mut newly = Vec::new();
+    let mut found = Vec::new();
     let mut cuts: Vec<(usize, Vec<Corner>)> = Vec::new();
     for (index, corner) in ring.iter().enumerate() {
-        if corner.edge.label != EdgeLabel::Frontier || !takes(corner) {
+        let end = ring[next(ring, index)];
+        if corner.edge.label != EdgeLabel::Frontier || !takes(corner, &end) {
             continue;
         }
-        let end = ring[next(ring, index)];
-        let near = |wall: &&Wall| {
-            wall.seen_from != corner.edge.data.vertex
-                && box_gap(&corner.at, &end.at, &wall.from, &wall.to) < radius_m
-        };
-        for wall in walls.iter().filter(near) {
-            if let Some(span) = near_segment(&corner.at, &end.at, &wall.from, &wall.to, radius_m) {
-                ledger.close(span, &(), &mut newly);
-            }
-        }
+        found.clear();
+        spans(corner, &end, &mut found);
+        found.iter().for_each(|span| ledger.close(*span, &(), &mut newly));
         if !ledger.is_open() {
             cuts.push((index, pieces(corner, &end, &ledger)));
             ledger = EdgeLedger::new();
