@@ -34,7 +34,7 @@ fn cpu_secs() -> f64 {
 fn told_bytes(key: &str) -> f64 {
     let text = std::fs::read_to_string("/proc/self/status").unwrap_or_default();
     let line = text.lines().find_map(|line| line.strip_prefix(key));
-    let kilobytes = line.and_then(|l| l.split_whitespace().nth(1)).and_then(|w| w.parse().ok());
+    let kilobytes = line.and_then(|l| l.split_whitespace().next()).and_then(|w| w.parse().ok());
     kilobytes.map_or(f64::NAN, |kilobytes: f64| kilobytes * 1024.0)
 }
 

@@ -18,7 +18,8 @@ pub struct Spread {
 /// What was measured of a mesh.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Quality {
-    /// Distances of the measured points from the plane of the face on their ray.
+    /// Distances of the measured points from the plane of the face on their ray; of the farthest one where
+    /// that ray meets several.
     pub plane: Spread,
     /// Differences of depth on the rays of the measured points.
     pub ray: Spread,
@@ -45,10 +46,11 @@ impl Spread {
 
 /// Measures a mesh against the image that it was made from; missing pixels do not count.
 ///
-/// A pixel on a side counts for the nearer of its faces. O(pixels).
+/// A pixel on a side, or at a vertex, counts for the plane that is farthest of those of its faces, so that
+/// no distance is told too small. O(pixels).
 pub fn measure(image: &FilledImage, mesh: &ImageMesh) -> Quality {
     let pixels = image.pixels();
-    let mut plane = vec![f64::INFINITY; pixels];
+    let mut plane = vec![0.0_f64; pixels];
     let mut ray = vec![f64::INFINITY; pixels];
     for &triangle in &mesh.triangles {
         let corners = mesh.corner_pixels(triangle);
@@ -60,19 +62,18 @@ pub fn measure(image: &FilledImage, mesh: &ImageMesh) -> Quality {
                 let at = span.row * image.columns() + column;
                 let depth_m = f64::from(image.depths_m()[at]);
                 let (c, r) = (column as f64, span.row as f64);
-                plane[at] = plane[at].min(lifted.distance_m([c, r], depth_m));
+                plane[at] = plane[at].max(lifted.distance_m([c, r], depth_m));
                 let surface_m = 1.0 / (base + c * per_column + r * per_row);
                 ray[at] = ray[at].min((surface_m - depth_m).abs());
             }
         }
     }
     let covered = ray.iter().filter(|distance| distance.is_finite()).count();
+    let counts: Vec<bool> =
+        ray.iter().enumerate().map(|(at, r)| !image.is_missing(at) && r.is_finite()).collect();
     let measured = |distances: Vec<f64>| {
-        let of_measured = distances
-            .into_iter()
-            .enumerate()
-            .filter(|&(at, distance)| !image.is_missing(at) && distance.is_finite());
-        Spread::of(of_measured.map(|(_, distance)| distance).collect())
+        let of_measured = distances.into_iter().zip(&counts).filter(|&(_, &counts)| counts);
+        Spread::of(of_measured.map(|(distance, _)| distance).collect())
     };
     Quality {
         plane: measured(plane),

@@ -51,9 +51,6 @@ pub(super) fn polyhedron(args: &PolyhedronArgs, out: &Out) -> Result<(), Failure
     json["secs_polyhedron"] = joined.into();
     json["secs_check"] = secs_check.into();
     json["secs_measure"] = secs_measure.into();
-    if let Some(target) = &target {
-        target.write(&made.polyhedron)?;
-    }
     let mut rows = vec![(
         "image",
         format!(
@@ -78,13 +75,20 @@ pub(super) fn polyhedron(args: &PolyhedronArgs, out: &Out) -> Result<(), Failure
              {joined:.4}, check {secs_check:.4}, measure {secs_measure:.4}"
         ),
     ));
+    let vertices = made.mesh.pixels.len();
+    if let Some(target) = &target {
+        // The bytes of the file take as much memory as all of this.
+        let Made { polyhedron, mesh, labels, image } = made;
+        drop((mesh, labels, image));
+        target.write(&polyhedron)?;
+    }
     if let Some(record) = &args.output.recording.record {
         // Once more, and watched: what is written down must not count as time.
         let recording = DepthRecordingOptions {
             path: record.clone(),
             name: depth.depth.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into()),
             methods: vec![depth.reduce.name()],
-            largest: depth.ladder.iter().copied().fold(made.mesh.pixels.len(), usize::max),
+            largest: depth.ladder.iter().copied().fold(vertices, usize::max),
         };
         let mut recording = DepthRecording::create(recording).map_err(Failure::work)?;
         polyhedron_with(&image, &options, &mut recording).map_err(refused)?;
