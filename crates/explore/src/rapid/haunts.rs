@@ -14,7 +14,7 @@ const LAST_ACTIONS: u32 = 3_000;
 
 /// The same for each haunt, where there are few: a body that gets out of nowhere need not try as long
 /// as one that has all of a maze to itself.
-const LAST_ACTIONS_EACH: u32 = 500;
+const LAST_ACTIONS_EACH: u32 = 150;
 
 /// The allowance is doubled so often at most, far more often than it can be reached.
 const MOST_DOUBLINGS: u32 = 12;
@@ -160,7 +160,7 @@ mod tests {
 
     #[test]
     fn every_place_gets_as_much_again_when_nothing_is_left_elsewhere_and_then_is_spent() {
-        let (_, mut haunts) = chain(10, 2.0, 1.0);
+        let (_, mut haunts) = chain(20, 2.0, 1.0);
         let here = VertexId(0);
         act(&mut haunts, 0, ACTIONS);
         assert!(haunts.can_wait(here) && haunts.relent() && !haunts.can_wait(here));
