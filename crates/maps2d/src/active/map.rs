@@ -7,6 +7,7 @@ use posegraph::PoseGraph;
 use probe::{EdgeId, IdVec, Probe, VertexId};
 use sensing::Scan;
 
+use super::aims::Aims;
 use super::apart::unite_apart;
 use super::area::{Area, Links};
 use super::rings::{box_of, next, region_of_rings, ring_of, twice_area_m2, winding};
@@ -60,16 +61,16 @@ impl Default for ActiveAreaParams {
 #[derive(Clone, Debug)]
 pub struct ActiveArea {
     params: ActiveAreaParams,
-    correction: Correction,
-    links: Links,
+    pub(super) correction: Correction,
+    pub(super) links: Links,
     rings: Vec<Vec<Corner>>,
     /// The volume seen from each vertex last, for ways through the area.
     views: IdVec<VertexId, Option<Box<LocalVolume>>>,
-    open: OpenFrontier,
-    given_up: GivenUp,
+    pub(super) open: OpenFrontier,
+    pub(super) given_up: GivenUp,
     here: Here,
-    planner: GlobalPlanner,
-    aims: Aims,
+    pub(super) planner: GlobalPlanner,
+    pub(super) aims: Aims,
     invalid: u64,
     scans: u64,
 }
@@ -113,11 +114,11 @@ impl ActiveArea {
         &self.open
     }
 
-    fn map_from_body(&self, standing: &Standing) -> Se2 {
+    pub(super) fn map_from_body(&self, standing: &Standing) -> Se2 {
         self.correction.pose(standing.vertex) * standing.vertex_from_body
     }
 
-    fn area(&self, vertex: VertexId) -> Area {
+    pub(super) fn area(&self, vertex: VertexId) -> Area {
         self.links.within(vertex, self.params.area_edges)
     }
 
@@ -279,7 +280,7 @@ impl ActiveArea {
         self.measure();
     }
 
-    fn measure(&mut self) {
+    pub(super) fn measure(&mut self) {
         let discs = self.given_up.discs(|vertex| self.correction.pose(vertex));
         // Walls have settled what they settle when views were united.
         let params = OpenParams { wall_closing_m: 0.0, ..self.params.open };
@@ -287,7 +288,7 @@ impl ActiveArea {
     }
 
     /// The open frontier that is anchored inside the area (2.9.2).
-    fn open_inside(&self, active: &Area) -> OpenFrontier {
+    pub(super) fn open_inside(&self, active: &Area) -> OpenFrontier {
         let mut inside = self.open.clone();
         inside
             .chains
@@ -296,7 +297,7 @@ impl ActiveArea {
     }
 
     /// What the views of the area saw, united.
-    fn region_inside(&self, active: &Area) -> Region<Tag> {
+    pub(super) fn region_inside(&self, active: &Area) -> Region<Tag> {
         let view = |vertex| self.views.get(vertex)?.as_deref();
         region_inside(active, view, |vertex| self.correction.pose(vertex))
     }
@@ -309,46 +310,6 @@ impl ActiveArea {
         {
             self.follow_poses(&before, VertexId(last as u32), probe);
         }
-    }
-}
-
-/// Goals so near to each other are one, metres.
-const AIM_M: f64 = 0.5;
-
-/// A goal that ways led to anew more often than this is given up: as the robot moves, so does the
-/// area that reachability is judged in, and two goals may each be the nearest from where the way to
-/// the other leads.
-const MOST_AIMS: u32 = 6;
-
-/// The goals that ways have led to, and how often each was taken up anew.
-#[derive(Clone, Debug, Default)]
-struct Aims {
-    of: Vec<(VertexId, Point2, u32)>,
-    last: Option<usize>,
-}
-
-impl Aims {
-    /// Takes a goal, given in the frame of a vertex; false if it was taken up too often.
-    fn take(
-        &mut self,
-        at: Point2,
-        vertex: VertexId,
-        is_trip: bool,
-        pose: impl Fn(VertexId) -> Se2,
-    ) -> bool {
-        let goal = pose(vertex).transform(&at);
-        let near =
-            |aim: &(VertexId, Point2, u32)| (pose(aim.0).transform(&aim.1) - goal).norm() <= AIM_M;
-        let index = self.of.iter().position(near).unwrap_or_else(|| {
-            self.of.push((vertex, at, 0));
-            self.of.len() - 1
-        });
-        // A way along the graph is a trip of its own each time, though it may lead to the same place.
-        if is_trip || self.last != Some(index) {
-            self.last = Some(index);
-            self.of[index].2 += 1;
-        }
-        self.of[index].2 <= MOST_AIMS
     }
 }
 
@@ -445,57 +406,16 @@ impl ExplorationMap for ActiveArea {
         self.here.clearance(standing, to_in_body)
     }
 
-    /// Inside the area by the dual graph; else back along the graph (2.9.3).
+    /// Inside the area by the dual graph; else back along the graph (2.9.3). What neither leads to is
+    /// given up: it is believed to be out of reach.
     fn route(&mut self, standing: &Standing, _clearance_m: f64) -> Option<Route> {
-        let map_from_body = self.map_from_body(standing);
-        let map_from_vertex = self.correction.pose(standing.vertex);
-        let active = self.area(standing.vertex);
-        let region = self.region_inside(&active);
-        // Each round gives a goal up that was chosen too often, so this ends.
-        loop {
-            let open = self.open_inside(&active);
-            let route = match self.planner.route(&region, &open, &map_from_body) {
-                Some(through) => through,
-                None => {
-                    let legs = self.links.way(standing.vertex, |vertex| {
-                        vertex != standing.vertex && self.frontier_at(vertex) > 0.0
-                    });
-                    let Some(legs) = legs else { break };
-                    Route::Repeat(legs)
-                }
-            };
-            let goals: Vec<Point2> = match &route {
-                Route::Drive(points) => {
-                    points.last().map(|goal| map_from_body.transform(goal)).into_iter().collect()
-                }
-                Route::Repeat(legs) => {
-                    let goal = legs.last().map(|&(vertex, _)| vertex);
-                    let parts = self.open.counting().flat_map(|chain| &chain.parts);
-                    let of_goal = parts.filter(|part| Some(part.tag.vertex) == goal);
-                    of_goal.map(|part| part.from + (part.to - part.from) * 0.5).collect()
-                }
-            };
-            let Some(goal) = goals.first() else { return Some(route) };
-            let (at, is_trip) =
-                (map_from_vertex.inverse_transform(goal), matches!(route, Route::Repeat(_)));
-            let pose = |vertex| self.correction.pose(vertex);
-            if self.aims.take(at, standing.vertex, is_trip, pose) {
-                return Some(route);
-            }
-            for goal in &goals {
-                let at_in_vertex = map_from_vertex.inverse_transform(goal);
-                self.given_up.add(standing.vertex, at_in_vertex, AIM_M);
-            }
-            let left_m = self.open.summary().open_m;
+        let route = self.way_on(standing);
+        if route.is_none() {
+            let map_from_vertex = self.correction.pose(standing.vertex);
+            self.given_up.add_all(&self.open, standing.vertex, &map_from_vertex);
             self.measure();
-            if self.open.summary().open_m >= left_m {
-                break;
-            }
         }
-        // What neither leads to cannot be reached.
-        self.given_up.add_all(&self.open, standing.vertex, &map_from_vertex);
-        self.measure();
-        None
+        route
     }
 
     /// Length of the frontier that is anchored to a vertex.

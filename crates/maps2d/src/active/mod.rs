@@ -30,7 +30,7 @@
 //! 6. **Frontier** is what is labelled so on any ring; reachability is judged inside the area only
 //!    (2.9.2): goals in view, then ways on the dual graph of what the area's views saw
 //!    ([`crate::polygons`]), views that add nothing to it left out (`ways`); then back along the graph
-//!    to the nearest vertex with frontier (2.9.3).
+//!    to the nearest vertex with frontier (2.9.3). A goal that ways led to too often is given up (`aims`).
 //!
 //! **It fails** where the area is too small to hold both sides of an overlap, or so big that it merges
 //! both sides of a wall that drift has laid over each other (2.7.5). What can be noticed of that is
@@ -46,6 +46,7 @@
 //! A step costs what the area holds, but for a walk along all corners of the map to see which of them
 //! are active, and but for the optimisation of the whole pose graph at a place recognition.
 
+mod aims;
 mod apart;
 mod area;
 mod map;
