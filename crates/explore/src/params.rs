@@ -5,8 +5,12 @@
 pub struct RapidParams {
     /// Longest straight move before the next scan, metres.
     pub step_m: f64,
-    /// Distances to keep from obstacles, metres, tried in this order: a fixed one traps the robot.
+    /// Distances to keep between the middle of the body and obstacles, metres, tried in this order: a
+    /// fixed one traps the robot.
     pub clearances_m: Vec<f64>,
+    /// Radius of the body, metres, no more than those distances. A body that stands too near to
+    /// something has to leave by its hull: a hundredth of the distance of its middle would be inside.
+    pub body_radius_m: f64,
     /// A turn smaller than this is made without a scan of its own, radians.
     pub turn_tolerance_rad: f64,
     /// How far before the frontier the "normal point" lies, metres (\[Zie18\] 2.9.3).
@@ -33,6 +37,7 @@ impl Default for RapidParams {
         Self {
             step_m: 1.0,
             clearances_m: vec![0.3, 0.1, 0.03],
+            body_radius_m: 0.0,
             turn_tolerance_rad: 1.0_f64.to_radians(),
             normal_point_m: vec![1.0, 0.5],
             arrival_m: 0.05,

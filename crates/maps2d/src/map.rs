@@ -66,6 +66,19 @@ impl Clearance {
             && self.at_end_m >= least_m;
         self.along_m >= least_m || (self.at_start_m < least_m && away)
     }
+
+    /// The same for a round body instead of a point: how near its hull comes.
+    ///
+    /// A body that is seen to overlap with something counts as touching it, so that it can leave.
+    pub fn around_body(&self, radius_m: f64) -> Self {
+        let body_m = radius_m.min(0.999 * self.at_start_m);
+        Self {
+            at_start_m: self.at_start_m - body_m,
+            along_m: self.along_m - body_m,
+            after_m: self.after_m - body_m,
+            at_end_m: self.at_end_m - body_m,
+        }
+    }
 }
 
 /// What is left to explore, as the map believes.

@@ -94,6 +94,7 @@ macro_rules! policy_table {
                 Self {
                     step_m: planner.step_m,
                     clearances_m: planner.clearances_m.clone(),
+                    body_radius_m: 0.0,
                     turn_tolerance_rad: planner.turn_tolerance_deg.to_radians(),
                     normal_point_m: planner.normal_point_m.clone(),
                     arrival_m: planner.arrival_m,

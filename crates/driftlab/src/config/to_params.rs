@@ -212,13 +212,11 @@ impl Config {
 
 impl From<&Config> for ExploreParams {
     fn from(config: &Config) -> Self {
-        // The policy plans for a point: it keeps the body's radius away from walls as well.
+        // The policy plans for the body's middle: it keeps the radius away from walls as well.
+        let body_radius_m = config.robot.radius_m;
         let for_body = |mut params: RapidParams| {
-            params
-                .clearances_m
-                .iter_mut()
-                .for_each(|clearance_m| *clearance_m += config.robot.radius_m);
-            params
+            params.clearances_m.iter_mut().for_each(|clearance_m| *clearance_m += body_radius_m);
+            RapidParams { body_radius_m, ..params }
         };
         let policy = match &config.planner {
             Planner::Rapid(planner) => Policy::Rapid(for_body(planner.into())),

@@ -154,8 +154,9 @@ impl Explorer {
         } else {
             to_in_body
         };
-        let clearance = self.maps[0].clearance(&self.standing, &first);
-        clearance.keeps(clearance_m).then(|| towards(candidate, to_in_body, at_most_m))
+        let body_m = params.body_radius_m;
+        let clearance = self.maps[0].clearance(&self.standing, &first).around_body(body_m);
+        clearance.keeps(clearance_m - body_m).then(|| towards(candidate, to_in_body, at_most_m))
     }
 
     /// One move towards a point in view, if any clearance allows it; returns the motion made.

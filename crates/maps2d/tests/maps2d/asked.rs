@@ -187,3 +187,15 @@ fn clearance_is_that_of_the_volume_stood_on() {
     let along_it = Clearance { at_start_m: 0.2, along_m: 0.2, after_m: 0.2, at_end_m: 0.2 };
     assert!(!along_it.keeps(0.5));
 }
+
+#[test]
+fn a_body_that_touches_something_does_not_move_into_it() {
+    let touching = Clearance { at_start_m: 0.451, along_m: 0.447, after_m: 0.6, at_end_m: 0.8 };
+    assert!(touching.keeps(0.5), "the middle of a point may");
+    assert!(!touching.around_body(0.45).keeps(0.05));
+    let leaving = Clearance { along_m: 0.451, ..touching };
+    assert!(leaving.around_body(0.45).keeps(0.05));
+    // Seen a little nearer than it can be: it may still leave.
+    let pushed = Clearance { at_start_m: 0.449, along_m: 0.449, ..touching };
+    assert!(pushed.around_body(0.45).keeps(0.05));
+}
