@@ -120,7 +120,7 @@ impl Chart {
             .margin(8)
             .margin_right(14)
             .x_label_area_size(38)
-            .y_label_area_size(54)
+            .y_label_area_size(64)
             .build_cartesian_2d(left..right, 0.0..self.y_top())?;
         let place = |x: &f64| {
             let at = x.round();
@@ -138,6 +138,7 @@ impl Chart {
             .label_style(("sans-serif", 15))
             .axis_desc_style(("sans-serif", 15))
             .x_label_formatter(labels)
+            .y_label_formatter(&number)
             .light_line_style(WHITE.mix(0.0))
             .bold_line_style(BLACK.mix(0.12))
             .draw()?;
@@ -160,17 +161,26 @@ impl Chart {
             context.draw_series(thin.iter().map(|&at| Circle::new(at, 4, fill)))?;
             context
                 .draw_series(thin.iter().map(|&at| Circle::new(at, 4, colour.stroke_width(2))))?;
-            let width = if one.hollow { 1 } else { 3 };
             let line = LineSeries::new(one.line.iter().copied(), colour.stroke_width(2));
-            context.draw_series(line)?.label(one.name.as_str()).legend(move |(x, y)| {
-                PathElement::new(vec![(x, y), (x + 16, y)], colour.stroke_width(width))
-            });
+            let drawn = context.draw_series(line)?.label(one.name.as_str());
+            if one.bars.is_empty() {
+                drawn.legend(move |(x, y)| {
+                    PathElement::new(vec![(x, y), (x + 16, y)], colour.stroke_width(3))
+                });
+            } else {
+                // As the points are drawn: thin and thick lines would not tell hollow from full.
+                drawn.legend(move |(x, y)| {
+                    EmptyElement::at((x + 8, y))
+                        + Circle::new((0, 0), 4, fill)
+                        + Circle::new((0, 0), 4, colour.stroke_width(2))
+                });
+            }
         }
         context
             .configure_series_labels()
             .position(match (self.only_lines(), self.top) {
                 (true, _) => SeriesLabelPosition::LowerRight,
-                (false, Some(_)) => SeriesLabelPosition::MiddleLeft,
+                (false, Some(_)) => SeriesLabelPosition::MiddleMiddle,
                 (false, None) => SeriesLabelPosition::UpperLeft,
             })
             .label_font(("sans-serif", 14))
