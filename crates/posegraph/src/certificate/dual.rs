@@ -104,10 +104,12 @@ impl<'a, const B: usize> DualMatrix<'a, B> {
                 }
                 return positive(eta, bound, false);
             }
-            if eta * 10.0 > most {
+            // Neither may be a number where the entries of the matrix are not.
+            let wider = eta * 10.0;
+            if !(wider.is_finite() && wider <= most) {
                 break;
             }
-            eta *= 10.0;
+            eta = wider;
         }
         if first_rank {
             let bound = self.bound_held(x, cost, most);
@@ -122,7 +124,7 @@ impl<'a, const B: usize> DualMatrix<'a, B> {
             if self.factorize(shift, false) {
                 break;
             }
-            if shift > 1e3 * largest {
+            if !(shift.is_finite() && shift <= 1e3 * largest) {
                 // Beyond the norm of the matrix only numbers that are no numbers are left.
                 let eigenvalue = f64::NAN;
                 return Smallest {

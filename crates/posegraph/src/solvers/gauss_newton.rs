@@ -12,7 +12,7 @@
 //!    definite and the cost falls.
 //! 4. Converged where what is left to gain is next to nothing, by the rate of the last iterations. The
 //!    step that tells so is found with the factor of the iteration before, where that will do
-//!    ([`last_step`](super::last_step)): one factorisation less.
+//!    ([`last_step`](super::last_step)): one factorisation less. It is not taken where it leads uphill.
 //! 5. Where the cost has not been below its best for [`PATIENCE`] iterations, or is not a number,
 //!    damped steps go on from the best poses ([`levenberg_marquardt`]).
 
@@ -100,6 +100,14 @@ pub(super) fn run<P: Manifold<D>, const D: usize>(
             (newton, plain) = (false, PLAIN_AFTER_NEWTON);
             problem.linearize(&state.poses);
             continue;
+        }
+        // Where residuals are large, the last step may lead uphill, as others may: it is not worth it.
+        if let Some(ending) = ending
+            && cost > before
+        {
+            state.record(problem, promise, cost, false, before, probe);
+            state.cost = problem.evaluate(&state.poses);
+            return ending;
         }
         std::mem::swap(&mut state.poses, &mut state.trial);
         state.cost = cost;

@@ -133,3 +133,24 @@ fn empty_and_lonely_graphs_are_answered() {
     let nothing = certify(&graph, &[Se2::identity()], &SynchronizeOptions::default());
     assert_eq!(nothing.verdict.name(), "not_applicable");
 }
+
+/// Found by a reader of bad files: sums of such information are infinite, and the test of the
+/// certificate widened its bound for ever.
+#[test]
+fn information_beyond_what_can_be_summed_comes_to_an_end() {
+    let edge = |from: usize| Factor {
+        from,
+        to: from + 1,
+        from_from_to: Se2::new(1.0, 0.0, 0.0),
+        information: Matrix3::from_diagonal(&[1e308, 1e308, 100.0].into()),
+    };
+    let graph = FactorGraph {
+        ids: vec![0, 1, 2],
+        initial: vec![None; 3],
+        fixed: Vec::new(),
+        factors: vec![edge(0), edge(1)],
+    };
+    let found = default_start(&graph, &Options::default());
+    assert_eq!(found.poses.len(), 3);
+    certify(&graph, &found.poses, &SynchronizeOptions::default());
+}
