@@ -259,13 +259,14 @@ fn bad_input_gets_one_message_and_leaves_nothing() {
     desk.put("odd.g2o", "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 NaN 0 0\n");
     desk.put("far.tum", "1000.5 0 0 0 0 0 0 1\n");
     let before = desk.listing();
-    let cases: [&[&str]; 13] = [
+    let cases: [&[&str]; 14] = [
         &["info", "missing.g2o"],
         &["info", "cut.g2o"],
         &["info", "empty.g2o"],
         &["optimize", "odd.g2o", "-o", "out.g2o"],
         &["optimize", "square.g2o", "-o", "out.xyz"],
         &["optimize", "square.g2o", "-o", "square.g2o"],
+        &["optimize", "square.g2o", "-o", "out.g2o", "--record", "out.g2o"],
         &["optimize", "far.tum"],
         &["compare", "square.g2o", "edges.g2o"],
         &["compare", "square.g2o", "far.tum"],
@@ -283,6 +284,22 @@ fn bad_input_gets_one_message_and_leaves_nothing() {
     }
     assert_eq!(desk.listing(), before);
     insta::with_settings!({ omit_expression => true }, { insta::assert_snapshot!(page) });
+}
+
+#[test]
+fn edges_that_are_rejected_count_nowhere() {
+    let desk = Desk::new();
+    desk.json(&["generate", "manhattan", "--poses", "100", "-o", "town.g2o"]);
+    let clean = desk.json(&["optimize", "town.g2o", "--certify"]);
+    let wrong = "EDGE_SE2 3 90 0.3 40 2 400 0 0 400 0 2500\n";
+    desk.put("wrong.g2o", &(desk.read("town.g2o") + wrong));
+    let done = desk.json(&["optimize", "wrong.g2o", "--robust", "gnc-tls", "--certify"]);
+    assert_eq!(done["rejected_edges"].as_array().map(Vec::len), Some(1), "{done}");
+    assert_eq!(done["certificate"]["verdict"], clean["certificate"]["verdict"]);
+    for key in ["chi2", "log_cost", "sesync_cost"] {
+        let (with, without) = (done[key].as_f64().unwrap(), clean[key].as_f64().unwrap());
+        assert!((with - without).abs() <= 1e-3 * without, "{key}: {with} against {without}");
+    }
 }
 
 #[test]

@@ -29,6 +29,7 @@ pub(super) fn optimize(args: &OptimizeArgs, out: &Out) -> Result<(), Failure> {
     let target = target.transpose()?;
     if let Some(record) = &args.record {
         output::free(record, args.force)?;
+        output::apart(record, args.output.as_deref())?;
     }
     let input::Timed { read: file, secs: secs_read } = input::graph(&args.file, out)?;
     let (unknown_tags, warnings) = input::report_json(&file.report);
@@ -128,8 +129,10 @@ fn solve<P: Dimension<D>, const D: usize>(
         ));
     }
 
-    let certificate = args.certify.then(|| certified(&graph, solution));
-    let mut done = tell(&graph, &solved, certificate.as_ref(), args);
+    let believed = believed(&graph, &solved);
+    let believed = believed.as_ref().unwrap_or(&graph);
+    let certificate = args.certify.then(|| certified(believed, solution));
+    let mut done = tell(&graph, believed, &solved, certificate.as_ref(), args);
     if let Some(recording) = recording {
         recording.finish(&done.json).map_err(unrecorded)?;
     }
@@ -138,6 +141,20 @@ fn solve<P: Dimension<D>, const D: usize>(
     }
     graph.initial = solved.solution.poses.into_iter().map(Some).collect();
     Ok((P::any(graph), done))
+}
+
+/// The graph without the edges that were rejected; `None` where none was.
+fn believed<P: Dimension<D>, const D: usize>(
+    graph: &FactorGraph<P, D>,
+    solved: &Solved<P>,
+) -> Option<FactorGraph<P, D>> {
+    let rejected = &solved.doubts.as_ref().filter(|doubts| !doubts.rejected.is_empty())?.rejected;
+    let mut is_kept = vec![true; graph.factors.len()];
+    rejected.iter().for_each(|&index| is_kept[index] = false);
+    let mut believed = graph.clone();
+    let mut is_kept = is_kept.into_iter();
+    believed.factors.retain(|_| is_kept.next().unwrap_or(true));
+    Some(believed)
 }
 
 /// The certificate as JSON, and for people.
@@ -216,6 +233,7 @@ fn measured(termination: &Termination) -> (Value, Value) {
 
 fn tell<P: Dimension<D>, const D: usize>(
     graph: &FactorGraph<P, D>,
+    believed: &FactorGraph<P, D>,
     solved: &Solved<P>,
     certificate: Option<&Certified>,
     args: &OptimizeArgs,
@@ -225,8 +243,8 @@ fn tell<P: Dimension<D>, const D: usize>(
     // Of several threads only one would be counted.
     let alone = args.threads <= 1;
     let report = &solution.report;
-    let log_cost = chi2(graph, &solution.poses, ErrorKind::Log);
-    let sesync_cost = sesync_cost(graph, &solution.poses);
+    let log_cost = chi2(believed, &solution.poses, ErrorKind::Log);
+    let sesync_cost = sesync_cost(believed, &solution.poses);
     let doubts = solved.doubts.as_ref();
     let rejected = doubts.map_or(&[][..], |doubts| &doubts.rejected);
     let rejected: Vec<Value> = (rejected.iter())
@@ -278,8 +296,8 @@ fn tell<P: Dimension<D>, const D: usize>(
             "factor": report.fill.factor,
         },
     });
-    let degrees =
-        D as i64 * (graph.factors.len() as i64 - graph.ids.len() as i64 + report.components as i64);
+    let degrees = D as i64
+        * (believed.factors.len() as i64 - graph.ids.len() as i64 + report.components as i64);
     let mut rows = vec![
         ("graph", format!("{} poses, {} edges", graph.ids.len(), graph.factors.len())),
         ("start", format!("{init}, chi2 {}", shown(report.chi2_initial))),

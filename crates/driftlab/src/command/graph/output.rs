@@ -12,6 +12,17 @@ use super::super::files::write_whole;
 use super::args::FileFormat;
 use super::input::trajectory_of;
 
+/// Refuses a recording that the result would take the place of.
+pub(super) fn apart(record: &Path, output: Option<&Path>) -> Result<(), Failure> {
+    if output != Some(record) {
+        return Ok(());
+    }
+    let path = record.display();
+    Err(Failure::Input(anyhow!(
+        "{path}: found it for the result and for the recording, expected two files"
+    )))
+}
+
 /// A file that will be written: checked before the work starts.
 #[derive(Debug)]
 pub(super) struct Target {
