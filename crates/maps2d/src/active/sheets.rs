@@ -29,7 +29,8 @@ pub(super) fn merge_sheets(
                 true => unite_sheets(rings, (a, b), active, keep_points),
                 false => unite_holes(rings, (a, b), active, keep_points),
             };
-            Some((a.min(b), a.max(b), united?))
+            let united = united.filter(|united| !united.crossings.is_empty())?;
+            Some((a.min(b), a.max(b), united))
         });
         let Some((first, last, united)) = united else { break };
         rings.remove(last);
@@ -77,9 +78,10 @@ fn unite_sheets(
     active: &Area,
     keep_points: bool,
 ) -> Option<United> {
-    let may = may_swallow(rings, a, b);
-    let united = || unite(std::slice::from_ref(&rings[a]), &rings[b], active, keep_points).ok();
-    may.then(united).flatten().filter(|united| !united.crossings.is_empty())
+    if !may_swallow(rings, a, b) {
+        return None;
+    }
+    unite(std::slice::from_ref(&rings[a]), &rings[b], active, keep_points).ok()
 }
 
 /// Holes of one sheet that overlap are one hole: seen from the unknown, they are united as rings are.
@@ -99,7 +101,7 @@ fn unite_holes(
     let (first, second) = (reversed(&rings[a]), reversed(&rings[b]));
     let united = unite(&[first], &second, active, keep_points).ok()?;
     let rings = united.rings.iter().map(|ring| reversed(ring)).collect();
-    Some(United { rings, ..united }).filter(|united| !united.crossings.is_empty())
+    Some(United { rings, ..united })
 }
 
 /// Whether the first ring is an outer one, too, or a hole of another sheet: where the second lies

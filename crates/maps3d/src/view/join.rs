@@ -28,23 +28,28 @@ pub fn join(
     let mut faces = mesh.triangles.clone();
     let mut labels = labels.to_vec();
     if !open {
-        let origin = vertices.len() as u32;
         vertices.push(Point3::origin());
-        let border = mesh.border();
-        for (i, &vertex) in border.iter().enumerate() {
-            // The face within has this edge in order; the one without, in the other.
-            let next = border[(i + 1) % border.len()];
-            faces.push([next, vertex, origin]);
-            labels.push(Label::Frontier);
-        }
+        faces.extend(closing_faces(mesh));
+        labels.resize(faces.len(), Label::Frontier);
     }
-    if !camera.is_right_handed() {
-        // The image shows the world mirrored: what turns positively there looks inward here.
-        for face in &mut faces {
-            face.swap(1, 2);
-        }
+    for face in &mut faces {
+        *face = outward(camera, *face);
     }
     Ok(Polyhedron::try_new(vertices, faces, labels)?)
+}
+
+/// A face from each edge of the border to the camera, which is the vertex after those of the mesh.
+pub(super) fn closing_faces(mesh: &ImageMesh) -> Vec<[u32; 3]> {
+    let (border, origin) = (mesh.border(), mesh.pixels.len() as u32);
+    let nexts = border.iter().cycle().skip(1);
+    // The face within has this edge in order; the one without, in the other.
+    border.iter().zip(nexts).map(|(&vertex, &next)| [next, vertex, origin]).collect()
+}
+
+/// A face that turns positively in the image, turned so that it looks outward.
+pub(super) fn outward(camera: &Camera, [a, b, c]: [u32; 3]) -> [u32; 3] {
+    // Where the image shows the world mirrored, what turns positively there looks inward here.
+    if camera.is_right_handed() { [a, b, c] } else { [a, c, b] }
 }
 
 /// The volume between the camera and the surface, cubic metres.

@@ -4,6 +4,7 @@ use nalgebra::Point3;
 use sensing::Camera;
 use solid::{Polyhedron, Validity, check};
 
+use super::join::{closing_faces, outward};
 use crate::image::FilledImage;
 use crate::triangulate::{ImageMesh, check_planar};
 
@@ -53,18 +54,12 @@ fn is_joined(mesh: &ImageMesh, camera: &Camera, polyhedron: &Polyhedron) -> bool
             None => return false,
         }
     }
-    let border = mesh.border();
-    if used.contains(&false) || faces.len() != surface + border.len() {
+    let closing = closing_faces(mesh);
+    if used.contains(&false) || faces.len() != surface + closing.len() {
         return false;
     }
-    let outward =
-        |[a, b, c]: [u32; 3]| if camera.is_right_handed() { [a, b, c] } else { [a, c, b] };
-    let joins = border.iter().enumerate().map(|(i, &vertex)| {
-        let next = border[(i + 1) % border.len()];
-        [next, vertex, count as u32]
-    });
-    let expected = mesh.triangles.iter().copied().chain(joins);
-    faces.iter().zip(expected).all(|(&face, expected)| face == outward(expected))
+    let expected = mesh.triangles.iter().chain(&closing);
+    faces.iter().zip(expected).all(|(&face, &expected)| face == outward(camera, expected))
 }
 
 /// Step 3.

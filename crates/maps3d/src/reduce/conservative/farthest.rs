@@ -38,7 +38,7 @@ struct Farthest {
 impl Farthest {
     /// Halves a segment as long as some part of it may hold a larger distance than is known.
     fn look(&mut self, camera: &Camera, segment: &Segment) {
-        if segment.ends.iter().all(|end| end.mesh >= end.measured) {
+        if !segment.is_beyond() {
             return;
         }
         self.open.push([0.0, 1.0]);

@@ -11,6 +11,13 @@ pub(super) struct Segment {
     pub ends: [Place; 2],
 }
 
+impl Segment {
+    /// Whether the mesh lies beyond the measured surface anywhere along it: then it does so at an end.
+    pub fn is_beyond(&self) -> bool {
+        !self.ends.iter().all(|end| end.mesh >= end.measured)
+    }
+}
+
 /// A place of the image, and how far both surfaces are there.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Place {

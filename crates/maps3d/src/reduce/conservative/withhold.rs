@@ -14,8 +14,8 @@ use super::segments::{Place, Segment, visit};
 pub fn withhold(image: &FilledImage, mesh: &mut ImageMesh, bound_m: f64) -> usize {
     let mut raise = vec![0.0_f64; mesh.pixels.len()];
     visit(image, mesh, |corners, segment| {
-        // Even at the ends by depth alone: most segments.
-        if segment.ends.iter().all(|end| end.mesh >= end.measured) {
+        // Most segments.
+        if !segment.is_beyond() {
             return;
         }
         let stretch =
