@@ -224,6 +224,10 @@ fn a_ladder_shows_every_method_at_every_number() {
     assert_eq!(rungs, expected.collect::<Vec<_>>());
     let held = json(&desk.driftlab(&["inspect", "recordings/small.rrd", "--json"]));
     assert_eq!(held["metrics"]["rungs"], told["rungs"]);
+    // A viewer opens at the first time: there must be meshes to look at.
+    let timelines = held["timelines"].as_array().expect("a list");
+    let vertices = timelines.iter().find(|timeline| timeline["name"] == "vertices");
+    assert_eq!(vertices.expect("the timeline")["first"], 12);
     let paths: Vec<&str> = held["entities"]
         .as_array()
         .expect("a list")

@@ -26,15 +26,18 @@ pub struct DepthRecordingOptions {
     pub name: String,
     /// The reductions that will be shown side by side, in words.
     pub methods: Vec<String>,
-    /// The largest number of vertices at which a mesh is shown: so far the plots reach at first.
-    pub largest: usize,
+    /// The numbers of vertices at which a mesh is shown: the timeline `vertices` starts at the fewest,
+    /// the plots reach to the most at first.
+    pub shown: Vec<usize>,
 }
 
 /// The recording of one image, or of several reductions of it in a row: a probe for
 /// `polyhedron_with`.
 ///
 /// The timeline `vertices` counts the vertices of the mesh. Single removals and insertions are told
-/// ever less often the more vertices there are: one in every hundredth of the count.
+/// ever less often the more vertices there are: one in every hundredth of the count. What happens
+/// before there is a mesh to look at stands on the timeline `event` only: a viewer opens at the first
+/// time of `vertices`, and its views must not be empty there.
 pub struct DepthRecording {
     stage: Stage,
     options: DepthRecordingOptions,
@@ -154,7 +157,7 @@ impl DepthRecording {
         let look = layout::DepthLook {
             methods: names,
             middle_m: *middle_m,
-            largest: self.options.largest,
+            largest: self.options.shown.iter().copied().max().unwrap_or(image.pixels()),
         };
         layout::send_depth(&self.stage.stream, &look)
             .map_err(|reason| self.stage.refused(reason))?;
@@ -197,6 +200,9 @@ impl DepthRecording {
                     return Ok(());
                 }
                 self.at(vertices);
+                if self.options.shown.iter().all(|&shown| vertices < shown) {
+                    self.stage.stream.disable_timeline("vertices");
+                }
                 self.plot("error_m", error_m)?;
                 self.say(variant, format_args!("{pixel:?}, {error_m:.5} m off"))
             }

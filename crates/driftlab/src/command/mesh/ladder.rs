@@ -77,7 +77,7 @@ pub(super) fn ladder(args: &LadderArgs, out: &Out) -> Result<(), Failure> {
         path: record.clone(),
         name: config.name.clone(),
         methods: config.ladder.methods.clone(),
-        largest: config.ladder.vertices.iter().copied().max().unwrap_or(image.depths_m.len()),
+        shown: config.ladder.vertices.clone(),
     };
     let mut recording = DepthRecording::create(options).map_err(Failure::work)?;
     let mut rungs: Vec<Rung> = Vec::new();

@@ -88,7 +88,7 @@ pub(super) fn polyhedron(args: &PolyhedronArgs, out: &Out) -> Result<(), Failure
             path: record.clone(),
             name: depth.depth.file_stem().map_or_else(String::new, |s| s.to_string_lossy().into()),
             methods: vec![depth.reduce.name()],
-            largest: depth.ladder.iter().copied().fold(vertices, usize::max),
+            shown: [&depth.ladder[..], &[vertices]].concat(),
         };
         let mut recording = DepthRecording::create(recording).map_err(Failure::work)?;
         polyhedron_with(&image, &options, &mut recording).map_err(refused)?;
