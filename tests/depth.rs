@@ -200,6 +200,32 @@ fn a_line_of_pixels_is_a_polyhedron() {
     }
 }
 
+#[test]
+fn a_made_up_room_is_an_image_like_others() {
+    let desk = Desk::new("");
+    let room = ["mesh", "room", "--size", "64,48", "--json"];
+    let told = json(&desk.driftlab(&[&room[..], &["-o", "a.png"]].concat()));
+    let camera = told["camera"].as_str().expect("numbers").to_owned();
+    json(&desk.driftlab(&[&room[..], &["-o", "a.pgm"]].concat()));
+    let view = |file: &str| {
+        let line = ["mesh", "polyhedron", file, "--camera", &camera, "--vertices", "60", "--json"];
+        let mut told = json(&desk.driftlab(&line));
+        assert_eq!((&told["closed"], &told["self_intersecting"]), (&true.into(), &false.into()));
+        told["p95_m"].take()
+    };
+    assert_eq!(view("a.png"), view("a.pgm"));
+    assert!(view("a.png").as_f64().expect("metres") < 0.1);
+    for (line, words) in [
+        (&["-o", "a.png"][..], "exists already"),
+        (&["-o", "a.tiff"], "expected .png or .pgm"),
+        (&["-o", "b.png", "--size", "1,48"], "--size: found 1,48"),
+    ] {
+        let output = desk.driftlab(&[&["mesh", "room"], line].concat());
+        assert_eq!(code(&output), 2);
+        assert!(stderr(&output).contains(words), "{}", stderr(&output));
+    }
+}
+
 /// A config of a small room.
 const ROOM: &str = "name = \"small\"\n[depth]\ncrop = 2\n[room]\ncolumns = 64\nrows = 48\n[ladder]\n\
                     methods = [\"centroid\", \"inverse-depth\"]\nvertices = [200, 50, 12]\n";

@@ -40,6 +40,24 @@ pub fn from_levels(image: &GrayImage, units_per_metre: f64) -> Result<DepthPixel
     Ok(DepthPixels { columns: image.columns(), rows: image.rows(), depths_m })
 }
 
+/// A grey image of 16 bits that counts `units_per_metre`: the way back of [`from_levels`].
+///
+/// No reading is level 0, and so is a depth that 16 bits cannot count.
+///
+/// # Errors
+/// [`FormatError::Scale`] unless the scale is a positive, finite number; what [`GrayImage::new`]
+/// refuses.
+pub fn to_levels(depth: &DepthPixels, units_per_metre: f64) -> Result<GrayImage, FormatError> {
+    check_scale(units_per_metre)?;
+    let level = |&depth_m: &f32| {
+        let units = (f64::from(depth_m) * units_per_metre).round();
+        #[expect(clippy::cast_possible_truncation, clippy::cast_sign_loss, reason = "in range")]
+        if units > 0.0 && units < f64::from(u16::MAX) { units as u16 } else { 0 }
+    };
+    let levels = depth.depths_m.iter().map(level).collect();
+    GrayImage::new(depth.columns, depth.rows, u16::MAX, levels)
+}
+
 /// Reads little-endian 32-bit floats without a header, row by row; metres times `units_per_metre`.
 ///
 /// # Errors
@@ -92,6 +110,17 @@ mod tests {
         for scale in [0.0, -1.0, f64::NAN, f64::INFINITY] {
             assert!(from_levels(&image, scale).is_err(), "{scale}");
         }
+    }
+
+    #[test]
+    fn metres_become_levels_and_come_back() {
+        let depths_m = vec![f32::NAN, 1.5004, 0.001, 70.0, -1.0, 65.534];
+        let depth = DepthPixels { columns: 3, rows: 2, depths_m };
+        let image = to_levels(&depth, 1000.0).expect("fits");
+        assert_eq!(image.levels(), [0, 1500, 1, 0, 0, 65534]);
+        let back = from_levels(&image, 1000.0).expect("a scale");
+        assert_eq!(to_levels(&back, 1000.0).expect("fits").levels(), image.levels());
+        assert!(to_levels(&depth, 0.0).is_err());
     }
 
     #[test]

@@ -7,7 +7,7 @@ use serde_json::Value;
 
 use super::super::failure::Failure;
 use super::super::files::free;
-use super::depth_args::{DepthArgs, DepthFileArgs};
+use super::depth_args::{DepthArgs, DepthFileArgs, numbers};
 use super::output::Target;
 
 #[derive(Debug, Args)]
@@ -69,7 +69,7 @@ pub(super) enum MeshCommand {
             outside_max_m (how far the surface reaches beyond the measured one), and secs_read, \
             secs_triangulate, secs_reduce, secs_polyhedron.",
         after_help = "Examples:\n  \
-            driftlab mesh polyhedron depth.png --camera 525,525,319.5,239.5 --vertices 684 -o view.ply\n  \
+            driftlab mesh polyhedron depth.png --camera 576,578,319.5,239.5 --vertices 684 -o view.ply\n  \
             driftlab mesh polyhedron depth.png --depth-scale 5000 --reduce least-squares --vertices 113\n  \
             driftlab mesh polyhedron office.pcd --error 0.02 --conservative 0.05 --json\n  \
             driftlab mesh polyhedron depth.png --vertices 113 --ladder 10306,2060,684 --record a.rrd"
@@ -85,10 +85,20 @@ pub(super) enum MeshCommand {
             `vertices`.",
         after_help = "Examples:\n  \
             driftlab mesh ladder configs/depth/room.toml\n  \
-            driftlab mesh ladder configs/depth/figure_6_2.toml depth.png --camera 525,525,319.5,239.5\n  \
+            driftlab mesh ladder configs/depth/figure_6_2.toml depth.png --camera 576,578,319.5,239.5\n  \
             driftlab mesh ladder configs/depth/room.toml --record /tmp/room.rrd --json"
     )]
     Ladder(LadderArgs),
+    /// Make up the depth image of a room with boxes, to try the others on
+    #[command(
+        long_about = "Make up the depth image of a room with boxes, to try the others on.\n\n\
+            Grey of 16 bits, in millimetres, 0 where nothing is seen; with noise of 0.3 % of the depth, \
+            specks and a round patch without readings. Tells the camera that saw it.",
+        after_help = "Examples:\n  \
+            driftlab mesh room -o depth.png\n  \
+            driftlab mesh room --size 320,240 --seed 7 -o small.pgm --json"
+    )]
+    Room(RoomArgs),
     /// Take faces out of a mesh, within an error
     #[command(
         long_about = "Take faces out of a mesh, within an error.\n\n\
@@ -113,6 +123,27 @@ pub(super) struct LadderArgs {
     /// Where the recording goes [default: recordings/ and the config's name]
     #[arg(long, value_name = "FILE.rrd")]
     pub(super) record: Option<PathBuf>,
+    /// Replace files that are there already
+    #[arg(long)]
+    pub(super) force: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct RoomArgs {
+    /// Where the image goes: .png or .pgm
+    #[arg(short, long, value_name = "FILE")]
+    pub(super) output: PathBuf,
+    /// Columns and rows
+    #[arg(
+        long,
+        value_name = "COLUMNS,ROWS",
+        value_parser = numbers::<usize, 2>,
+        default_value = "640,480"
+    )]
+    pub(super) size: [usize; 2],
+    /// The noise's seed
+    #[arg(long, value_name = "N", default_value_t = 1)]
+    pub(super) seed: u32,
     /// Replace files that are there already
     #[arg(long)]
     pub(super) force: bool,

@@ -185,7 +185,7 @@ impl DepthFileArgs {
 }
 
 /// So many numbers with commas between.
-fn numbers<T: FromStr, const N: usize>(text: &str) -> Result<[T; N], String> {
+pub(super) fn numbers<T: FromStr, const N: usize>(text: &str) -> Result<[T; N], String> {
     let numbers: Option<Vec<T>> = text.split(',').map(|word| word.trim().parse().ok()).collect();
     let numbers = numbers.and_then(|numbers| numbers.try_into().ok());
     numbers.ok_or_else(|| format!("expected {N} numbers with commas between"))

@@ -13,6 +13,7 @@ mod ladder;
 mod output;
 mod polyhedron;
 mod reduce;
+mod room;
 mod tetrahedralize;
 mod told;
 
@@ -29,6 +30,7 @@ pub(super) fn mesh(args: &MeshArgs, out: &Out) -> Result<(), Failure> {
         MeshCommand::Info(args) => info::info(args, out),
         MeshCommand::Ladder(args) => ladder::ladder(args, out),
         MeshCommand::Polyhedron(args) => polyhedron::polyhedron(args, out),
+        MeshCommand::Room(args) => room::room(args, out),
         MeshCommand::Tetrahedralize(args) => tetrahedralize::tetrahedralize(args, out),
     }
 }
