@@ -73,7 +73,8 @@ fn measure(name: &str, mesh: &Polyhedron) {
     let (validity, checked) = secs(|| check(mesh));
     let (found, took) = secs(|| tetrahedralize(mesh));
     let vertices = mesh.vertices().len();
-    let head = format!("{name:16} {vertices:7} {:7} {:>5}", mesh.faces().len(), validity.is_valid());
+    let head =
+        format!("{name:16} {vertices:7} {:7} {:>5}", mesh.faces().len(), validity.is_valid());
     match found {
         Ok(found) => say(&format!(
             "{head} {:8} {:8.2} {:7} {:8.1} {checked:8.3} {took:8.3} {:8.4}",
@@ -101,18 +102,32 @@ fn points(count: usize) {
     let points: Vec<Point3> = (0..count).map(|_| Point3::new(unit(), unit(), unit())).collect();
     let (found, took) = secs(|| delaunay(&points));
     let cells = found.map_or(0, |found| found.tetrahedra.len());
-    say(&format!("{count:8} random points: {cells} tetrahedra, {:.0} points per s", count as f64 / took));
+    say(&format!(
+        "{count:8} random points: {cells} tetrahedra, {:.0} points per s",
+        count as f64 / took
+    ));
 }
 
 fn main() {
-    let mut words: Vec<String> = std::env::args().skip(1).filter(|word| word != "--bench").collect();
+    let mut words: Vec<String> =
+        std::env::args().skip(1).filter(|word| word != "--bench").collect();
     let mut folder = None;
     if let Some(at) = words.iter().position(|word| word == "--write") {
         folder = words.drain(at..at + 2).nth(1);
     }
     say(&format!(
         "{:16} {:>7} {:>7} {:>5} {:>8} {:>8} {:>7} {:>8} {:>8} {:>8} {:>8}",
-        "mesh", "vertices", "faces", "valid", "tets", "per v.", "added", "v. per", "check s", "s", "ms/v."
+        "mesh",
+        "vertices",
+        "faces",
+        "valid",
+        "tets",
+        "per v.",
+        "added",
+        "v. per",
+        "check s",
+        "s",
+        "ms/v."
     ));
     for path in &words {
         let name = path.rsplit('/').next().unwrap_or(path);

@@ -100,6 +100,23 @@ impl Constraints {
         id
     }
 
+    /// Makes an edge without triangles one that must appear, held or not.
+    pub(crate) fn hold_bare(&mut self, a: u32, b: u32, held: bool) {
+        let id = self.add_segment(a, b);
+        self.segments[id as usize].held = held;
+    }
+
+    /// Forgets an edge without triangles.
+    pub(crate) fn drop_bare(&mut self, a: u32, b: u32) {
+        if let Some(id) = self.segment(a, b)
+            && self.segments[id as usize].faces.is_empty()
+        {
+            self.segments[id as usize].live = false;
+            self.segments[id as usize].held = false;
+            self.by_ends.remove(&key(a, b));
+        }
+    }
+
     /// Takes a triangle out; edges that no triangle has any more go too.
     pub(crate) fn remove(&mut self, facet: u32) {
         let corners = self.facets[facet as usize].corners;

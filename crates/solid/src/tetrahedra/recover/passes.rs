@@ -2,10 +2,11 @@
 
 use probe::Probe;
 
-use super::plan::Plan;
+use super::plan::{DETOUR, Plan};
 use super::segments::Attempt;
 use crate::tetrahedra::events::{Cause, TetrahedraEvent};
 use crate::tetrahedra::flips::Work;
+use crate::tetrahedra::mesh::NONE;
 
 /// How often constraints are divided, all stuck ones once each.
 const MOST_ROUNDS: usize = 60;
@@ -95,6 +96,19 @@ fn pass(
             }
         }
     }
+    while kind == Kind::Segments && !missing.is_empty() {
+        let before = missing.len();
+        work.sweep(kind, &mut missing, probe, |work, item| match item {
+            Item::Segment(a, b) => {
+                work.recover_segment(a, b, DETOUR) == Attempt::Done
+                    || work.recover_by_detour(a, b, DETOUR)
+            }
+            Item::Facet(_) => false,
+        });
+        if (before - missing.len()) * WORTH_IT < before {
+            break;
+        }
+    }
     missing
 }
 
@@ -167,6 +181,13 @@ pub(crate) fn commit(
                 made: &made,
                 points: &work.mesh.points,
             });
+        }
+        for vertex in points..work.mesh.points.len() {
+            // Points of detours come and go in one step.
+            if work.mesh.at[vertex] == NONE {
+                let point = work.mesh.points[vertex];
+                probe.emit(TetrahedraEvent::SteinerRemoved { vertex: vertex as u32, point });
+            }
         }
     }
     work.log.clear();

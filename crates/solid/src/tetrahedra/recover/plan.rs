@@ -11,6 +11,9 @@ const DEEP: Effort = Effort { depth: 2, ring: 24, tries: 200, flattest: FLAT };
 /// As a last resort nearly flat tetrahedra may be made.
 const ANYHOW: Effort = Effort { depth: 1, ring: 40, tries: 60, flattest: 0.0 };
 
+/// Flips on a detour, which has to be short.
+pub(super) const DETOUR: Effort = SHALLOW;
+
 /// One way to go about it. Which constraints are stuck, and where points go, depends on the order; where
 /// one plan leaves no room for a point another one mostly does.
 #[derive(Clone, Copy, Debug)]

@@ -14,7 +14,7 @@ impl Work {
     /// Removes edges of `s` that need not stay, until no flip removes one more: what is left of the star
     /// is small, and emptier of nearly flat tetrahedra. `hard` where edges that are in the way may be
     /// removed first.
-    pub(super) fn shed_edges(&mut self, s: u32, hard: bool) {
+    pub(crate) fn shed_edges(&mut self, s: u32, hard: bool) {
         let effort = if hard { HARD } else { EFFORT };
         for _ in 0..MOST_ROUNDS {
             let mut shed = false;

@@ -7,9 +7,9 @@ use crate::tetrahedra::mesh::NONE;
 use crate::tetrahedra::reconnect::Region;
 
 /// How many steps the search takes that does without new points.
-const STEPS: u32 = 200;
+pub(super) const STEPS: u32 = 200;
 /// The largest star that is searched.
-const MOST_SEARCHED: usize = 20;
+pub(super) const MOST_SEARCHED: usize = 20;
 
 impl Work {
     /// Undoes a split whose parts are not divided further: its facets become whole again, and the point
@@ -98,7 +98,7 @@ impl Work {
     }
 
     /// Fills each space round `s` from a point of its own.
-    fn put_points_beside(&mut self, s: u32, star: &[u32], sectors: &[Hole]) -> bool {
+    pub(super) fn put_points_beside(&mut self, s: u32, star: &[u32], sectors: &[Hole]) -> bool {
         let points = self.mesh.points.len();
         let mut old = star.to_vec();
         let mut new = Vec::new();
@@ -179,6 +179,6 @@ impl Work {
 }
 
 /// Whether two triangles have the same corners in the same cyclic order.
-fn same_turn(a: [u32; 3], [x, y, z]: [u32; 3]) -> bool {
+pub(super) fn same_turn(a: [u32; 3], [x, y, z]: [u32; 3]) -> bool {
     a == [x, y, z] || a == [y, z, x] || a == [z, x, y]
 }
