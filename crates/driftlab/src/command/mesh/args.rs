@@ -92,8 +92,8 @@ pub(super) enum MeshCommand {
     /// Make up the depth image of a room with boxes, to try the others on
     #[command(
         long_about = "Make up the depth image of a room with boxes, to try the others on.\n\n\
-            Grey of 16 bits, in millimetres, 0 where nothing is seen; with noise of 0.3 % of the depth, \
-            specks and a round patch without readings. Tells the camera that saw it.",
+            Grey of 16 bits, in millimetres, 0 where nothing is seen; with noise of 0.3 % of the depth \
+            and a round patch without readings. Tells the camera that saw it.",
         after_help = "Examples:\n  \
             driftlab mesh room -o depth.png\n  \
             driftlab mesh room --size 320,240 --seed 7 -o small.pgm --json"

@@ -35,7 +35,9 @@ pub(super) fn room(args: &RoomArgs, out: &Out) -> Result<(), Failure> {
             "--size: found {columns},{rows}, expected 2 to 4096 each way"
         )));
     }
-    let room = DepthRoom { columns, rows, seed: args.seed, ..DepthRoom::default() };
+    // Every speck would make frontier of the large faces that lie on it.
+    let room =
+        DepthRoom { columns, rows, seed: args.seed, speckle_share: 0.0, ..Default::default() };
     let depth = DepthPixels { columns, rows, depths_m: room.image().depths_m };
     let bytes = to_levels(&depth, UNITS_PER_METRE).and_then(|levels| encode(&levels));
     write_whole(&args.output, &bytes.map_err(Failure::work)?)?;
