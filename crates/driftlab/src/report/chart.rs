@@ -2,8 +2,16 @@
 
 use plotters::prelude::*;
 
-/// Width and height of a plot, pixels.
-const SIZE: (u32, u32) = (460, 320);
+use super::legend;
+
+/// Width and height of a plot without its names, pixels.
+const SIZE: (u32, u32) = (460, 310);
+
+/// From the left to where the values begin, pixels.
+const LEFT: u32 = 72;
+
+/// Height of the title, pixels.
+const TITLE: u32 = 32;
 
 /// Colours that most people can tell apart (Okabe and Ito, 2008).
 const COLOURS: [RGBColor; 7] = [
@@ -93,9 +101,7 @@ impl Chart {
         let bars = self.series.iter().flat_map(|one| one.bars.iter().map(|bar| bar.high));
         let lines = self.series.iter().flat_map(|one| one.line.iter().map(|point| point.1));
         let highest = bars.chain(lines).fold(0.0, f64::max);
-        // Above points there is room for the legend.
-        let room = if self.only_lines() { 1.08 } else { 1.3 };
-        self.top.unwrap_or(if highest > 0.0 { room * highest } else { 1.0 })
+        self.top.unwrap_or(if highest > 0.0 { 1.08 * highest } else { 1.0 })
     }
 
     /// The text of the SVG file: the same for the same plot.
@@ -112,15 +118,20 @@ impl Chart {
         &self,
         text: &mut String,
     ) -> Result<(), DrawingAreaErrorKind<<SVGBackend<'static> as DrawingBackend>::ErrorType>> {
-        let root = SVGBackend::with_string(text, SIZE).into_drawing_area();
+        let names = legend::height(&self.series, SIZE.0 - LEFT);
+        let root = SVGBackend::with_string(text, (SIZE.0, SIZE.1 + names)).into_drawing_area();
         root.fill(&WHITE)?;
+        let (head, body) = root.split_vertically(TITLE + names);
+        let (title, names) = head.split_vertically(TITLE);
+        title.titled(&self.title, ("sans-serif", 18))?;
+        let colour_of = |one: &Series| COLOURS[one.colour % COLOURS.len()];
+        legend::draw(&names.margin(0, 0, LEFT, 0), &self.series, colour_of)?;
         let (left, right) = self.x_range();
-        let mut context = ChartBuilder::on(&root)
-            .caption(&self.title, ("sans-serif", 18))
+        let mut context = ChartBuilder::on(&body)
             .margin(8)
             .margin_right(14)
             .x_label_area_size(38)
-            .y_label_area_size(64)
+            .y_label_area_size(LEFT - 8)
             .build_cartesian_2d(left..right, 0.0..self.y_top())?;
         let place = |x: &f64| {
             let at = x.round();
@@ -143,7 +154,7 @@ impl Chart {
             .bold_line_style(BLACK.mix(0.12))
             .draw()?;
         for one in &self.series {
-            let colour = COLOURS[one.colour % COLOURS.len()];
+            let colour = colour_of(one);
             if !one.band.is_empty() {
                 let there = one.band.iter().map(|&(x, low, _)| (x, low));
                 let back = one.band.iter().rev().map(|&(x, _, high)| (x, high));
@@ -162,31 +173,8 @@ impl Chart {
             context
                 .draw_series(thin.iter().map(|&at| Circle::new(at, 4, colour.stroke_width(2))))?;
             let line = LineSeries::new(one.line.iter().copied(), colour.stroke_width(2));
-            let drawn = context.draw_series(line)?.label(one.name.as_str());
-            if one.bars.is_empty() {
-                drawn.legend(move |(x, y)| {
-                    PathElement::new(vec![(x, y), (x + 16, y)], colour.stroke_width(3))
-                });
-            } else {
-                // As the points are drawn: thin and thick lines would not tell hollow from full.
-                drawn.legend(move |(x, y)| {
-                    EmptyElement::at((x + 8, y))
-                        + Circle::new((0, 0), 4, fill)
-                        + Circle::new((0, 0), 4, colour.stroke_width(2))
-                });
-            }
+            context.draw_series(line)?;
         }
-        context
-            .configure_series_labels()
-            .position(match (self.only_lines(), self.top) {
-                (true, _) => SeriesLabelPosition::LowerRight,
-                (false, Some(_)) => SeriesLabelPosition::MiddleMiddle,
-                (false, None) => SeriesLabelPosition::UpperLeft,
-            })
-            .label_font(("sans-serif", 14))
-            .background_style(WHITE.mix(0.8))
-            .border_style(BLACK.mix(0.2))
-            .draw()?;
         root.present()
     }
 }

@@ -14,6 +14,7 @@
 mod chart;
 mod curves;
 mod group;
+mod legend;
 mod over_axes;
 mod page;
 mod published;

@@ -11,7 +11,7 @@ pub(crate) struct Section {
     pub(crate) title: String,
     /// 1 for the heading of a study, 2 for its parts.
     pub(crate) level: usize,
-    /// What it says, in plain text.
+    /// What it says, in plain text with names of things between backticks.
     pub(crate) text: String,
     /// Its table.
     pub(crate) table: Option<TextTable>,
@@ -79,7 +79,7 @@ pub(crate) fn html(title: &str, sections: &[Section]) -> String {
         let level = section.level + 1;
         let _ = writeln!(page, "<h{level}>{}</h{level}>", escaped(&section.title));
         if !section.text.is_empty() {
-            let _ = writeln!(page, "<p>{}</p>", escaped(&section.text));
+            let _ = writeln!(page, "<p>{}</p>", with_code(&section.text));
         }
         if let Some(table) = &section.table {
             let line = |row: &[String], tag: &str| {
@@ -111,9 +111,32 @@ fn escaped(text: &str) -> String {
     text.replace('&', "&amp;").replace('<', "&lt;").replace('>', "&gt;").replace('"', "&quot;")
 }
 
+/// The text with what stands between backticks as code; a backtick without a partner stays.
+fn with_code(text: &str) -> String {
+    let mut page = String::new();
+    let mut parts = text.split('`').map(escaped).peekable();
+    let mut is_code = false;
+    while let Some(part) = parts.next() {
+        match (is_code, parts.peek().is_some()) {
+            (true, true) => page.push_str(&format!("<code>{part}</code>")),
+            (true, false) => page.push_str(&format!("`{part}")),
+            (false, _) => page.push_str(&part),
+        }
+        is_code = !is_code;
+    }
+    page
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn names_between_backticks_are_code() {
+        assert_eq!(with_code("by `a<b`, not `c`."), "by <code>a&lt;b</code>, not <code>c</code>.");
+        assert_eq!(with_code("a ` b"), "a ` b");
+        assert_eq!(with_code(""), "");
+    }
 
     fn sections() -> Vec<Section> {
         let table = TextTable {

@@ -5,7 +5,7 @@ use super::curves::coverage_plots;
 use super::over_axes::{QUANTITIES, axis_plots, times_plot};
 use super::page::{Plot, Section};
 use super::published::{reasons, steers};
-use super::tables::{accuracy, costs, published, results, times};
+use super::tables::{accuracy, costs, published, results, summary, times};
 use super::{ReportError, Study};
 
 /// More plots of one kind than that are not looked at.
@@ -37,6 +37,10 @@ fn one_study(study: &Study, stem: &str, all: &mut Vec<Section>) -> Result<(), Re
     }
     text.push_str(&format!("{runs} runs, from {}.", study.folder.display()));
     all.push(Section { title: study.name.clone(), level: 1, text, ..Section::default() });
+
+    let told = "What each map believed at the end, how right it was, and what it cost: means over the \
+                runs, and medians of the costs. More of each below.";
+    all.push(Section { table: Some(summary(study)), ..part("In one table", told) });
 
     let told = "Means over the runs ± one standard deviation. Distances count only for runs that \
                 ended complete and true; where these are not all, their number stands in brackets. \

@@ -66,23 +66,56 @@ pub(crate) fn results(study: &Study) -> TextTable {
     })
 }
 
+/// What each map believed, how right it was and what it cost, one below the other.
+pub(crate) fn summary(study: &Study) -> TextTable {
+    let columns = [
+        "complete and true",
+        "wrongly complete",
+        "coverage",
+        "free space, IoU",
+        "poses off by, m",
+        "step, µs",
+        "corrections, s",
+    ];
+    TextTable::of_groups(study, &columns, |group| {
+        let mean = |name: &str| group.mean(name).map_or_else(none, |m| format!("{:.3}", m.mean));
+        let cost = |name: &str, digits: usize| {
+            group.cost(name).map_or_else(none, |cost| format!("{cost:.digits$}"))
+        };
+        vec![
+            count(group.success()),
+            count(group.wrong()),
+            mean("coverage"),
+            mean("free_iou"),
+            mean("ate_m"),
+            cost("step_micros_median", 0),
+            cost("correction_secs", 3),
+        ]
+    })
+}
+
 /// How far the robot drove until every cell was seen, and until no frontier was left (\[Zie18\] 3.3).
 pub(crate) fn times(study: &Study) -> TextTable {
-    let columns =
-        ["every cell seen, m", "no frontier left, m", "after all was seen, m", "times the grid"];
+    let mut columns = vec!["every cell seen, m", "no frontier left, m", "after all was seen, m"];
+    let has_grid = study.groups.iter().any(|group| study.measured(group, "times_grid").is_some());
+    if has_grid {
+        columns.push("times the grid");
+    }
     TextTable::of_groups(study, &columns, |group| {
         let after = group
             .runs
             .iter()
             .filter_map(|run| Some(run.number("no_frontier_m")? - run.number("all_seen_m")?));
-        vec![
+        let mut row = vec![
             spread(group.mean("all_seen_m"), group.runs.len()),
             spread(group.mean("no_frontier_m"), group.runs.len()),
             spread(Mean::of(after), group.runs.len()),
-            study
-                .measured(group, "times_grid")
-                .map_or_else(none, |mean| format!("{:.2}", mean.mean)),
-        ]
+        ];
+        if has_grid {
+            let times = study.measured(group, "times_grid");
+            row.push(times.map_or_else(none, |mean| format!("{:.2}", mean.mean)));
+        }
+        row
     })
 }
 
