@@ -58,7 +58,9 @@ pub fn tetrahedralize_in(
     }
     let (start, rank_of) = triangulate(&sound, probe)?;
     let mut work = keep_faces(&start, probe)?;
-    remove_steiner(&mut work, BOX + sound.points.len(), probe);
+    let is_inside = work.classify(inside);
+    let within = free_points(&work, BOX + sound.points.len(), &is_inside);
+    remove_steiner(&mut work, &within, probe);
     let is_inside = work.classify(inside);
     if probe.on() {
         let all: Vec<[u32; 4]> = work.mesh.finite().map(|t| work.mesh.tet(t).v).collect();
@@ -175,15 +177,25 @@ fn clear_boundary(
     }
 }
 
-/// Removes free points, those from vertex `first` on, where that works.
+/// The vertices from `first` on that are corners inside, ascending: those outside do no harm.
+fn free_points(work: &Work, first: usize, is_inside: &[bool]) -> Vec<u32> {
+    let all = work.mesh.finite().filter(|&t| is_inside[t as usize]);
+    let mut within: Vec<u32> =
+        all.flat_map(|t| work.mesh.tet(t).v).filter(|&v| v as usize >= first).collect();
+    within.sort_unstable();
+    within.dedup();
+    within
+}
+
+/// Removes some free points where that works.
 fn remove_steiner(
     work: &mut Work,
-    first: usize,
+    points: &[u32],
     probe: &mut impl for<'a> Probe<TetrahedraEvent<'a>>,
 ) {
     for hard in REMOVALS {
         let mut removed = false;
-        for v in first as u32..work.mesh.points.len() as u32 {
+        for &v in points {
             if work.mesh.at[v as usize] == NONE {
                 continue;
             }

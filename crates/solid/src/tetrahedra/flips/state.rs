@@ -10,6 +10,8 @@ pub(crate) struct Work {
     pub(crate) mesh: Mesh,
     /// What must appear.
     pub(crate) must: Constraints,
+    /// Whether removals and searches make no nearly flat tetrahedra: while there is more to bring in.
+    pub(crate) even: bool,
     /// Exchanges that may yet be undone.
     pub(crate) log: Vec<Exchange>,
     /// Points on constraints, in the order made.

@@ -71,6 +71,7 @@ impl Work {
         let usable = vertices.iter().map(|&v| Some(v) != without).collect();
         let mut search = std::mem::take(&mut self.search);
         self.blamed.clear();
+        search.even = self.even;
         search.signs.fill(&self.mesh, vertices);
         search.prepare(&surface, &segments, &facets, usable);
         let new: Option<Vec<[u32; 4]>> = search

@@ -29,6 +29,8 @@ pub(crate) struct Search {
     made: Vec<[u8; 4]>,
     /// Vertices that may be an apex.
     usable: Vec<bool>,
+    /// Whether nearly flat tetrahedra are no candidates.
+    pub(super) even: bool,
     /// How many steps may yet be taken.
     pub(crate) steps: u32,
     /// How often no apex was found for each face of the surface, by its place in the tables.
@@ -198,6 +200,9 @@ impl Search {
 
     fn fits(&self, [x, y, z]: [u8; 3], apex: u8) -> Option<u8> {
         if !self.usable[apex as usize] || self.signs.of(x, y, z, apex) <= 0 {
+            return None;
+        }
+        if self.even && !self.signs.is_even(x, y, z, apex) {
             return None;
         }
         let tet = [x, y, z, apex];

@@ -1,5 +1,6 @@
 //! The orientations of all quadruples of a few points.
 
+use crate::tetrahedra::flips::{FLAT, evenness};
 use crate::tetrahedra::mesh::Mesh;
 
 /// The sign of the orientation of every quadruple of some vertices, numbered from 0.
@@ -24,7 +25,9 @@ impl Signs {
                         let value = mesh.orient(vertices[a], vertices[b], vertices[c], vertices[d]);
                         let sign = i8::from(value > 0.0) - i8::from(value < 0.0);
                         if sign != 0 {
-                            self.spread([a, b, c, d], sign);
+                            let four = [a, b, c, d].map(|i| vertices[i]);
+                            let flat = evenness(mesh, value.abs(), four) < FLAT;
+                            self.spread([a, b, c, d], if flat { sign } else { 2 * sign });
                         }
                     }
                 }
@@ -65,7 +68,13 @@ impl Signs {
     /// The sign of four vertices; 0 where two are the same, or all are coplanar.
     #[inline]
     pub(super) fn of(&self, a: u8, b: u8, c: u8, d: u8) -> i8 {
-        self.sign[self.place([a as usize, b as usize, c as usize, d as usize])]
+        self.sign[self.place([a as usize, b as usize, c as usize, d as usize])].signum()
+    }
+
+    /// Whether four vertices make a positive tetrahedron that is not nearly flat.
+    #[inline]
+    pub(super) fn is_even(&self, a: u8, b: u8, c: u8, d: u8) -> bool {
+        self.sign[self.place([a as usize, b as usize, c as usize, d as usize])] == 2
     }
 
     /// Whether the open segment `p`, `q` passes the closed triangle, not in its plane.

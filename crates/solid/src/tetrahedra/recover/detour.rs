@@ -10,9 +10,15 @@ impl Work {
     /// Makes the segment `a`, `b` an edge where flips alone do not: a point on it, its halves by flips or
     /// by detours of their own, and the point taken off again. Only free points stay. False, with nothing
     /// changed, where some step fails.
-    pub(crate) fn recover_by_detour(&mut self, a: u32, b: u32, effort: Effort) -> bool {
+    pub(crate) fn recover_by_detour(
+        &mut self,
+        a: u32,
+        b: u32,
+        effort: Effort,
+        turn: usize,
+    ) -> bool {
         let (mark, points) = (self.log.len(), self.mesh.points.len());
-        let done = self.detour(a, b, effort, MOST_DEPTH);
+        let done = self.detour(a, b, effort, turn, MOST_DEPTH);
         if !done {
             self.undo_to(mark);
             self.mesh.points.truncate(points);
@@ -22,8 +28,8 @@ impl Work {
     }
 
     /// One level; each halves the number of things in the way, about. Where it fails, the caller undoes.
-    fn detour(&mut self, a: u32, b: u32, effort: Effort, depth: u32) -> bool {
-        let Some(s) = self.place_on(a, b) else { return false };
+    fn detour(&mut self, a: u32, b: u32, effort: Effort, turn: usize, depth: u32) -> bool {
+        let Some(s) = self.place_on(a, b, turn) else { return false };
         let halves = [[a, s], [s, b]];
         for [p, q] in halves {
             self.must.hold_bare(p, q, false);
@@ -32,7 +38,7 @@ impl Work {
         for [p, q] in halves {
             done = done
                 && (self.recover_segment(p, q, effort) == Attempt::Done
-                    || (depth > 0 && self.detour(p, q, effort, depth - 1)));
+                    || (depth > 0 && self.detour(p, q, effort, turn, depth - 1)));
             self.must.hold_bare(p, q, done);
         }
         if done {

@@ -2,7 +2,7 @@
 
 use probe::Probe;
 
-use super::plan::{DETOUR, Plan};
+use super::plan::{ANYHOW, DETOUR, Plan};
 use super::segments::Attempt;
 use crate::tetrahedra::events::{Cause, TetrahedraEvent};
 use crate::tetrahedra::flips::Work;
@@ -14,6 +14,9 @@ const MOST_ROUNDS: usize = 60;
 const MOST_GROWTH: usize = 4;
 /// A sweep is repeated where it brought in more than one of so many.
 const WORTH_IT: usize = 8;
+
+/// How many places of a segment are tried for a detour.
+const MOST_TURNS: usize = 3;
 
 /// What a pass works on.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -29,6 +32,7 @@ pub(crate) fn conform(
     plan: &Plan,
     probe: &mut impl for<'a> Probe<TetrahedraEvent<'a>>,
 ) -> Vec<u32> {
+    work.even = true;
     let (mut before, mut growth) = (usize::MAX, 0);
     for round in 0..MOST_ROUNDS {
         let stuck = pass(work, Kind::Segments, plan, round > 0, probe);
@@ -55,6 +59,7 @@ pub(crate) fn conform(
             break;
         }
     }
+    work.even = false;
     let mut missing: Vec<u32> = work
         .missing_segments()
         .into_iter()
@@ -96,20 +101,45 @@ fn pass(
             }
         }
     }
-    while kind == Kind::Segments && !missing.is_empty() {
-        let before = missing.len();
+    if kind == Kind::Segments {
+        take_detours(work, &mut missing, probe);
+    }
+    if !missing.is_empty() {
+        // Flat tetrahedra are better than a division.
+        work.even = false;
         work.sweep(kind, &mut missing, probe, |work, item| match item {
             Item::Segment(a, b) => {
+                work.recover_segment(a, b, ANYHOW) == Attempt::Done
+                    || work.recover_by_detour(a, b, ANYHOW, 0)
+            }
+            Item::Facet(corners) => work.recover_facet(corners, ANYHOW) == Attempt::Done,
+        });
+        work.even = true;
+    }
+    missing
+}
+
+/// Brings stuck segments in by detours: over the point first thought of as long as that helps, then over
+/// others.
+fn take_detours(
+    work: &mut Work,
+    missing: &mut Vec<u32>,
+    probe: &mut impl for<'a> Probe<TetrahedraEvent<'a>>,
+) {
+    let mut turn = 0;
+    while !missing.is_empty() && turn < MOST_TURNS {
+        let before = missing.len();
+        work.sweep(Kind::Segments, missing, probe, |work, item| match item {
+            Item::Segment(a, b) => {
                 work.recover_segment(a, b, DETOUR) == Attempt::Done
-                    || work.recover_by_detour(a, b, DETOUR)
+                    || work.recover_by_detour(a, b, DETOUR, turn)
             }
             Item::Facet(_) => false,
         });
         if (before - missing.len()) * WORTH_IT < before {
-            break;
+            turn += 1;
         }
     }
-    missing
 }
 
 /// One thing to bring in.

@@ -7,9 +7,9 @@ const PLAIN: Effort = Effort { depth: 0, ring: 16, tries: 0, flattest: FLAT };
 /// Flips after a flip that clears the way.
 const SHALLOW: Effort = Effort { depth: 1, ring: 24, tries: 20, flattest: FLAT };
 /// Two flips that clear the way, one for the other.
-const DEEP: Effort = Effort { depth: 2, ring: 24, tries: 200, flattest: FLAT };
+const DEEP: Effort = Effort { depth: 2, ring: 24, tries: 100, flattest: FLAT };
 /// As a last resort nearly flat tetrahedra may be made.
-const ANYHOW: Effort = Effort { depth: 1, ring: 40, tries: 60, flattest: 0.0 };
+pub(super) const ANYHOW: Effort = Effort { depth: 1, ring: 40, tries: 60, flattest: 0.0 };
 
 /// Flips on a detour, which has to be short.
 pub(super) const DETOUR: Effort = SHALLOW;
@@ -26,9 +26,9 @@ pub(crate) struct Plan {
 
 /// The plans, in the order tried.
 pub(crate) const PLANS: [Plan; 8] = [
-    Plan { efforts: &[PLAIN, SHALLOW], turn: 0 },
-    Plan { efforts: &[PLAIN, SHALLOW], turn: 1 },
     Plan { efforts: &[PLAIN, SHALLOW, DEEP], turn: 0 },
+    Plan { efforts: &[PLAIN, SHALLOW, DEEP], turn: 1 },
+    Plan { efforts: &[PLAIN, SHALLOW], turn: 0 },
     Plan { efforts: &[PLAIN, SHALLOW, DEEP], turn: 2 },
     Plan { efforts: &[PLAIN, SHALLOW], turn: 3 },
     Plan { efforts: &[PLAIN, SHALLOW, DEEP], turn: 4 },

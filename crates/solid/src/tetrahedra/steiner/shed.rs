@@ -7,13 +7,13 @@ use crate::tetrahedra::mesh::GHOST;
 const MOST_ROUNDS: usize = 8;
 /// Plain flips, no search.
 const EFFORT: Effort = Effort { depth: 0, ring: 16, tries: 0, flattest: FLAT };
-/// Flips after a flip that clears the way.
-const HARD: Effort = Effort { depth: 1, ring: 16, tries: 12, flattest: FLAT };
+/// Flips after flips that clear the way, be their tetrahedra flat.
+const HARD: Effort = Effort { depth: 2, ring: 16, tries: 100, flattest: 0.0 };
 
 impl Work {
     /// Removes edges of `s` that need not stay, until no flip removes one more: what is left of the star
-    /// is small, and emptier of nearly flat tetrahedra. `hard` where edges that are in the way may be
-    /// removed first.
+    /// is small. `hard` where edges that are in the way may be removed first, and nearly flat
+    /// tetrahedra made.
     pub(crate) fn shed_edges(&mut self, s: u32, hard: bool) {
         let effort = if hard { HARD } else { EFFORT };
         for _ in 0..MOST_ROUNDS {

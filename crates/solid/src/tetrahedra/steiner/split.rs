@@ -50,15 +50,18 @@ impl Work {
         false
     }
 
-    /// Puts a point on the missing segment `a`, `b`, up to rounding, in the middle of what passes it.
-    pub(crate) fn place_on(&mut self, a: u32, b: u32) -> Option<u32> {
+    /// Puts a point on the missing segment `a`, `b`, up to rounding, in the middle of what passes it, or at
+    /// the next best place after `turn` others.
+    pub(crate) fn place_on(&mut self, a: u32, b: u32, turn: usize) -> Option<u32> {
         let (p, q) = (*self.mesh.point(a), *self.mesh.point(b));
         let way = self.mesh.way(a, b);
         if way.tets.is_empty() || !way.vertices.is_empty() {
             return None;
         }
         let start = self.with_neighbours(&way.tets);
-        self.passed_at(a, b, &way).into_iter().chain(PLACES).find_map(|t| {
+        let mut places = self.passed_at(a, b, &way);
+        places.extend(PLACES);
+        places.into_iter().skip(turn).find_map(|t| {
             let place = [0, 1, 2].map(|k| p[k] * (1.0 - t) + q[k] * t);
             self.insert_steiner(place, &start)
         })
