@@ -63,6 +63,16 @@ impl Stage {
         Ok(())
     }
 
+    /// Logs a line of text, and sees that it is in the file before anything else.
+    pub fn open_with(&self, entity: &str, line: &str) -> Result<(), InstrumentError> {
+        let sent = self.stream.log(entity, &TextLog::new(line));
+        sent.map_err(|error| InstrumentError::Rows {
+            entity: entity.to_owned(),
+            reason: error.to_string(),
+        })?;
+        self.stream.flush_blocking().map_err(|error| self.refused(error.to_string()))
+    }
+
     /// Logs an event at `entity`: its name as data, and one line of text.
     pub fn say(
         &self,

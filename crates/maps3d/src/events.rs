@@ -73,7 +73,7 @@ pub enum DepthEvent<'a> {
         /// Number of vertices that moved.
         vertices: usize,
     },
-    /// The reduction ended.
+    /// The reduction ended; without one, the mesh is that of all pixels.
     Reduced {
         /// The image.
         image: &'a FilledImage,

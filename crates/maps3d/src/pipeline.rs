@@ -95,7 +95,11 @@ where
     probe.emit(DepthEvent::Triangulated { image: &image, squares: &squares });
     let mesh = match &options.reduce {
         Some(reduction) => reduce_with(&image, reduction, probe)?,
-        None => grid(&image),
+        None => {
+            let mesh = grid(&image);
+            probe.emit(DepthEvent::Reduced { image: &image, mesh: &mesh });
+            mesh
+        }
     };
     let labels = label(&mesh, &squares, options.frontier_share);
     probe.emit(DepthEvent::Labelled { mesh: &mesh, labels: &labels });

@@ -148,19 +148,22 @@ pub(super) fn surface(
     Ok(())
 }
 
-/// The edges that lead to the camera, where the polyhedron is closed: its walls, all frontier, would
-/// hide what is within.
+/// Some of the edges that lead to the camera, where the polyhedron is closed: its walls, all frontier,
+/// would hide what is within, and so would the edges of each pixel on the border.
 pub(super) fn walls(
     stream: &RecordingStream,
     path: &str,
     polyhedron: &Polyhedron,
 ) -> Result<(), InstrumentError> {
+    const MOST: usize = 100;
     let vertices = polyhedron.vertices();
     let origin = vertices.iter().position(|vertex| vertex.coords.norm_squared() == 0.0);
     let Some(origin) = origin.map(|at| at as u32) else { return Ok(()) };
     let at_origin = polyhedron.faces().iter().filter(|face| face.contains(&origin));
-    let edges = at_origin.flat_map(|face| face.iter().filter(|&&vertex| vertex != origin).take(1));
-    let strips = edges.map(|&vertex| [[0.0; 3], short(&vertices[vertex as usize])]);
+    let ends = at_origin.flat_map(|face| face.iter().filter(|&&vertex| vertex != origin).take(1));
+    let ends: Vec<u32> = ends.copied().collect();
+    let ends = ends.iter().step_by(ends.len().div_ceil(MOST).max(1));
+    let strips = ends.map(|&vertex| [[0.0; 3], short(&vertices[vertex as usize])]);
     let lines = LineStrips3D::new(strips)
         .with_colors([Color::from_u32(FRONTIER)])
         .with_radii([rerun::Radius::new_ui_points(0.5)]);

@@ -161,6 +161,12 @@ impl DepthRecording {
         };
         layout::send_depth(&self.stage.stream, &look)
             .map_err(|reason| self.stage.refused(reason))?;
+        // A viewer that still loads the file opens at the first time that it meets: removals start at
+        // the most vertices, where there is little to see.
+        let pixels = image.pixels();
+        let fewest = self.options.shown.iter().copied().fold(pixels, usize::min);
+        self.at(fewest);
+        self.stage.open_with("events", "Meshes are shown from here on")?;
         draw::image(&self.stage.stream, "image/depth", image)
     }
 
@@ -168,8 +174,8 @@ impl DepthRecording {
         let variant = event.variant();
         match event {
             DepthEvent::Prepared { image } => {
-                self.at(image.pixels());
                 self.prepared(image)?;
+                self.at(image.pixels());
                 let (columns, rows) = (image.columns(), image.rows());
                 let missing = image.missing_count();
                 self.say(variant, format_args!("{columns} x {rows} pixels, {missing} missing"))
