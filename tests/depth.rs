@@ -226,6 +226,54 @@ fn a_made_up_room_is_an_image_like_others() {
     }
 }
 
+#[test]
+fn a_recording_takes_the_place_of_nothing_else() {
+    let desk = framed();
+    desk.put("room.toml", ROOM);
+    let frame = std::fs::read(desk.path("frame.pgm")).expect("readable");
+    for line in [
+        &["polyhedron", "frame.pgm", "-o", "s.ply", "--record", "./s.ply"][..],
+        &["polyhedron", "frame.pgm", "--record", "frame.pgm", "--force"],
+        &["ladder", "room.toml", "frame.pgm", "--record", "frame.pgm", "--force"],
+        &["ladder", "room.toml", "--record", "room.toml", "--force"],
+    ] {
+        let output = desk.driftlab(&[&["mesh"], line].concat());
+        assert_eq!(code(&output), 2, "{line:?}");
+        assert!(stderr(&output).contains("expected two files"), "{}", stderr(&output));
+    }
+    assert_eq!(std::fs::read(desk.path("frame.pgm")).expect("readable"), frame);
+    assert_eq!(std::fs::read(desk.path("room.toml")).expect("readable"), ROOM.as_bytes());
+    assert!(!desk.path("s.ply").exists());
+}
+
+#[test]
+fn options_that_would_do_nothing_are_refused() {
+    let desk = framed();
+    desk.put("room.toml", ROOM);
+    for (line, words) in [
+        (&["ladder", "room.toml", "--camera", "1,1,0,0"][..], "DEPTH"),
+        (&["polyhedron", "frame.pgm", "--size", "8,6"], "--size: found 8,6"),
+    ] {
+        let output = desk.driftlab(&[&["mesh"], line].concat());
+        assert_eq!(code(&output), 2, "{line:?}");
+        assert!(stderr(&output).contains(words), "{}", stderr(&output));
+    }
+}
+
+#[test]
+fn the_whole_grid_is_shown_and_measured_too() {
+    let desk = framed();
+    desk.put("room.toml", &ROOM.replace("[200, 50, 12]", "[]"));
+    let told = json(&desk.driftlab(&["mesh", "ladder", "room.toml", "--json"]));
+    assert_eq!(told["rungs"][0]["vertices"], 60 * 44);
+    assert!(told["rungs"][0]["p95_m"].as_f64().expect("metres") < 1e-6);
+    let held = json(&desk.driftlab(&["inspect", "recordings/small.rrd", "--json"]));
+    let paths = held["entities"].as_array().expect("a list");
+    let surface = "view/centroid/surface/obstacle";
+    let at = |entity: &serde_json::Value| entity["path"].as_str().unwrap_or("").ends_with(surface);
+    assert!(paths.iter().any(at), "{paths:?}");
+}
+
 /// A config of a small room.
 const ROOM: &str = "name = \"small\"\n[depth]\ncrop = 2\n[room]\ncolumns = 64\nrows = 48\n[ladder]\n\
                     methods = [\"centroid\", \"inverse-depth\"]\nvertices = [200, 50, 12]\n";
@@ -285,6 +333,9 @@ fn a_ladder_shows_every_method_at_every_number() {
         (ROOM, vec!["what.png", "--record", "b.rrd"], "what.png"),
         (&ROOM.replace("crop = 2", "crop = 30"), vec!["--record", "b.rrd"], "30 are cropped"),
         (&ROOM.replace("centroid", "middle"), vec!["--record", "b.rrd"], "room.toml:8:11"),
+        (&ROOM.replace("200", "99999999999"), vec!["--record", "b.rrd"], "room.toml:9:"),
+        (&ROOM.replace("inverse-depth", "centroid"), vec!["--record", "b.rrd"], "twice"),
+        (&ROOM.replace("small", "a\\u0000"), vec!["--record", "b.rrd"], "room.toml:1:"),
     ] {
         desk.put("room.toml", text);
         let mut all = vec!["mesh", "ladder", "room.toml", "-q"];

@@ -35,6 +35,28 @@ pub(super) fn vacant(path: &Path, force: bool) -> Result<(), Failure> {
     Ok(())
 }
 
+/// Refuses a recording that would take the place of something else that the command reads or writes.
+pub(super) fn apart<'a>(
+    record: &Path,
+    others: impl IntoIterator<Item = &'a Path>,
+) -> Result<(), Failure> {
+    // One file may have several names; of a file that is to be made, its folder is there.
+    let place = |path: &Path| {
+        let folder = path.parent().filter(|folder| !folder.as_os_str().is_empty());
+        let folder = folder.unwrap_or(Path::new(".")).canonicalize().ok();
+        let made = folder.zip(path.file_name()).map(|(folder, name)| folder.join(name));
+        path.canonicalize().ok().or(made).unwrap_or_else(|| path.to_owned())
+    };
+    let own = place(record);
+    if others.into_iter().all(|other| place(other) != own) {
+        return Ok(());
+    }
+    Err(Failure::Input(anyhow!(
+        "{}: found it for the recording and for another file, expected two files",
+        record.display()
+    )))
+}
+
 /// Writes under a temporary name beside the file, then renames.
 pub(super) fn write_whole(path: &Path, bytes: &[u8]) -> Result<(), Failure> {
     let refused = |error| Failure::Work(anyhow!("{}: {error}", path.display()));

@@ -112,8 +112,7 @@ fn first_key(path: &str) -> &str {
 
 fn between_keys(config: &Config, faults: &mut Vec<Fault>) {
     if !is_folder_name(&config.name) {
-        let expected = "letters, digits, `.`, `_` or `-`, not starting with `.` or `-`";
-        faults.push(fault("name", format!("{:?}", config.name), expected.into()));
+        faults.push(fault("name", format!("{:?}", config.name), FOLDER_NAME.into()));
     }
     if config.world.is_none() {
         let kinds = properties_of("world").join(", ");
@@ -185,6 +184,10 @@ fn check_generator(world: &World) -> (&'static str, Result<(), WorldError>) {
         _ => ("world", Ok(())),
     }
 }
+
+/// What [`is_folder_name`] expects.
+pub(super) const FOLDER_NAME: &str =
+    "letters, digits, `.`, `_` or `-`, not starting with `.` or `-`";
 
 /// Whether a name can be a folder of its own on every system.
 pub(super) fn is_folder_name(name: &str) -> bool {

@@ -7,7 +7,11 @@ use serde::Deserialize;
 use worlds::DepthRoom;
 
 use super::ConfigError;
+use super::check::{FOLDER_NAME, is_folder_name};
 use super::typed::{self, Checked};
+
+/// More vertices than pixels of the largest image.
+const MOST_VERTICES: usize = 1 << 28;
 
 /// A ladder of reductions.
 #[derive(Clone, Debug, PartialEq, Deserialize)]
@@ -112,12 +116,20 @@ impl Ladder {
         if rungs.methods.is_empty() {
             return Some(("ladder.methods", "an empty list".into(), "at least one method".into()));
         }
-        if let Some(few) = rungs.vertices.iter().find(|count| **count < 4) {
-            let expected = "numbers from 4, the corners of the image";
-            return Some(("ladder.vertices", few.to_string(), expected.into()));
+        let twice =
+            rungs.methods.iter().enumerate().find(|(at, m)| rungs.methods[..*at].contains(m));
+        if let Some((_, name)) = twice {
+            let found = format!("{name:?} twice");
+            return Some(("ladder.methods", found, "each method once".into()));
         }
-        if self.name.is_empty() || self.name.contains(['/', '\\']) {
-            return Some(("name", format!("{:?}", self.name), "a name without slashes".into()));
+        if let Some(wrong) =
+            rungs.vertices.iter().find(|count| !(4..=MOST_VERTICES).contains(*count))
+        {
+            let expected = "numbers from 4, the corners of the image, to 2^28";
+            return Some(("ladder.vertices", wrong.to_string(), expected.into()));
+        }
+        if !is_folder_name(&self.name) {
+            return Some(("name", format!("{:?}", self.name), FOLDER_NAME.into()));
         }
         let room = &self.room;
         let sides = [("room.columns", room.columns), ("room.rows", room.rows)];

@@ -4,6 +4,7 @@ use nalgebra::{Matrix2, Vector2};
 use sensing::{Camera, DepthImage};
 
 use crate::Maps3dError;
+use crate::tolerance::LINE_SHARE;
 
 /// What happens to points that share one place (\[Mos15\] 5.4.1).
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -166,7 +167,7 @@ impl Line {
         let matrix = Matrix2::new(self.slope_slope, self.slope, self.slope, self.count);
         // Points of one column, or a single one, leave the focal length open.
         let spread = matrix.determinant() / (self.count * self.count);
-        if spread.is_nan() || spread <= 1e-12 * (self.slope_slope / self.count) {
+        if spread.is_nan() || spread <= LINE_SHARE * (self.slope_slope / self.count) {
             return None;
         }
         let line = matrix.lu().solve(&Vector2::new(self.slope_pixel, self.pixel))?;

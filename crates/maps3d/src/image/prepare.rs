@@ -68,6 +68,13 @@ impl PrepareOptions {
         Ok(())
     }
 
+    /// Whether a depth is a reading, metres: finite, not nearer than [`NEAREST_M`], not farther than
+    /// [`FARTHEST_M`] or `max_m`.
+    #[expect(clippy::cast_possible_truncation, reason = "depths are kept as sensors give them")]
+    pub fn measures(&self, depth_m: f32) -> bool {
+        (NEAREST_M..=self.max_m.min(f64::from(FARTHEST_M)) as f32).contains(&depth_m)
+    }
+
     /// The columns and rows that are left of an image.
     ///
     /// # Errors
@@ -87,8 +94,7 @@ impl PrepareOptions {
 /// Crops the image, tells invalid values and places missing data at the far distance.
 ///
 /// Cropping by n leaves `columns - 2 n` columns; the thesis kept one more of each (541 of 640 at
-/// 50). Missing is what is not finite or not between [`NEAREST_M`] and [`FARTHEST_M`], and what is
-/// beyond `max_m`. A missing pixel gets the depth `far_m` on its own ray (eq. 5.1). Readings beyond
+/// 50). Missing is what is no reading ([`PrepareOptions::measures`]). A missing pixel gets the depth `far_m` on its own ray (eq. 5.1). Readings beyond
 /// `far_m` stay where they are. O(pixels).
 ///
 /// The rays of a single row or column lie in one plane and enclose nothing. What is one pixel wide is
@@ -122,12 +128,12 @@ pub fn prepare(image: &DepthImage, options: &PrepareOptions) -> Result<FilledIma
         missing_count: 0,
     };
     #[expect(clippy::cast_possible_truncation, reason = "depths are kept as sensors give them")]
-    let (far_m, max_m) = (options.far_m as f32, options.max_m.min(f64::from(FARTHEST_M)) as f32);
+    let far_m = options.far_m as f32;
     let kept = image.depths_m.chunks_exact(columns).skip(crop).take(height);
     for row in kept.flat_map(|row| std::iter::repeat_n(row, high)) {
         let kept = row[crop..crop + width].iter();
         for &depth_m in kept.flat_map(|depth_m| std::iter::repeat_n(depth_m, wide)) {
-            let measured = (NEAREST_M..=max_m).contains(&depth_m);
+            let measured = options.measures(depth_m);
             if !measured {
                 let at = filled.depths_m.len();
                 filled.missing[at / 64] |= 1 << (at % 64);

@@ -29,7 +29,7 @@ pub(super) fn optimize(args: &OptimizeArgs, out: &Out) -> Result<(), Failure> {
     let target = target.transpose()?;
     if let Some(record) = &args.record {
         output::free(record, args.force)?;
-        output::apart(record, args.output.as_deref())?;
+        output::apart(record, [args.file.as_path()].into_iter().chain(args.output.as_deref()))?;
     }
     let input::Timed { read: file, secs: secs_read } = input::graph(&args.file, out)?;
     let (unknown_tags, warnings) = input::report_json(&file.report);

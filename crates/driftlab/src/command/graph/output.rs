@@ -7,21 +7,10 @@ use formats::pose_graph::{self, AnyGraph, GraphFormat};
 use formats::tum;
 
 use super::super::failure::Failure;
-pub(super) use super::super::files::free;
 use super::super::files::write_whole;
+pub(super) use super::super::files::{apart, free};
 use super::args::FileFormat;
 use super::input::trajectory_of;
-
-/// Refuses a recording that the result would take the place of.
-pub(super) fn apart(record: &Path, output: Option<&Path>) -> Result<(), Failure> {
-    if output != Some(record) {
-        return Ok(());
-    }
-    let path = record.display();
-    Err(Failure::Input(anyhow!(
-        "{path}: found it for the result and for the recording, expected two files"
-    )))
-}
 
 /// A file that will be written: checked before the work starts.
 #[derive(Debug)]

@@ -6,7 +6,7 @@ use clap::{Args, Subcommand, ValueEnum};
 use serde_json::Value;
 
 use super::super::failure::Failure;
-use super::super::files::free;
+use super::super::files::{apart, free};
 use super::depth_args::{DepthArgs, DepthFileArgs, numbers};
 use super::output::Target;
 
@@ -213,10 +213,10 @@ pub(super) struct OutputArgs {
 
 impl OutputArgs {
     /// The file for the mesh, if one is asked for; nothing is in the way of it or of the recording.
-    pub(super) fn target(&self) -> Result<Option<Target>, Failure> {
+    pub(super) fn target(&self, inputs: &[&Path]) -> Result<Option<Target>, Failure> {
         let force = self.recording.force;
         let target = self.output.as_deref().map(|path| Target::new(path, force)).transpose()?;
-        self.recording.check()?;
+        self.recording.check(inputs.iter().copied().chain(self.output.as_deref()))?;
         Ok(target)
     }
 
@@ -239,9 +239,14 @@ pub(super) struct RecordArgs {
 }
 
 impl RecordArgs {
-    /// Sees that nothing is in the way.
-    pub(super) fn check(&self) -> Result<(), Failure> {
-        self.record.as_deref().map_or(Ok(()), |path| free(path, self.force))
+    /// Sees that nothing is in the way, nor one of the other files.
+    pub(super) fn check<'a>(
+        &self,
+        others: impl IntoIterator<Item = &'a Path>,
+    ) -> Result<(), Failure> {
+        let Some(record) = &self.record else { return Ok(()) };
+        apart(record, others)?;
+        free(record, self.force)
     }
 }
 

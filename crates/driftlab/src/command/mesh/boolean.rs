@@ -16,7 +16,7 @@ use super::input;
 use super::told::Told;
 
 pub(super) fn boolean(args: &BooleanArgs, out: &Out) -> Result<(), Failure> {
-    let target = args.output.target()?;
+    let target = args.output.target(&[&args.a, &args.b])?;
     let a = input::mesh(&args.a, args.input.weld, out)?;
     let b = input::mesh(&args.b, args.input.weld, out)?;
     let moved = args.jitter.then(|| jittered(&b.mesh, 1, JITTER_M));

@@ -71,14 +71,20 @@ pub(in crate::command) struct DepthFileArgs {
         long,
         value_name = "FX,FY,CX,CY",
         value_parser = numbers::<f64, 4>,
-        allow_hyphen_values = true
+        allow_hyphen_values = true,
+        requires = "depth"
     )]
     pub(super) camera: Option<[f64; 4]>,
     /// Units of the file per metre, 1e-9 to 1e9 [default: 1000; 1 for .raw]; clouds are in metres
-    #[arg(long, value_name = "UNITS")]
+    #[arg(long, value_name = "UNITS", requires = "depth")]
     pub(super) depth_scale: Option<f64>,
     /// Columns and rows of floats without a header
-    #[arg(long, value_name = "COLUMNS,ROWS", value_parser = numbers::<usize, 2>)]
+    #[arg(
+        long,
+        value_name = "COLUMNS,ROWS",
+        value_parser = numbers::<usize, 2>,
+        requires = "depth"
+    )]
     pub(super) size: Option<[usize; 2]>,
     /// What happens to points of a cloud that share a place
     #[arg(long, value_enum, default_value = "refuse")]
@@ -158,17 +164,21 @@ pub(super) fn refused(from: &dyn std::fmt::Display, error: &Maps3dError) -> Fail
 /// The least and the most units per metre: a million kilometres, and a millionth of a millimetre.
 const SCALES: std::ops::RangeInclusive<f64> = 1e-9..=1e9;
 
+/// Focal lengths of cameras that may exist, without their sign, pixels.
+const FOCAL_LENGTHS_PX: std::ops::RangeInclusive<f64> = 1e-3..=1e7;
+
 impl DepthFileArgs {
     /// Refuses numbers that fit no file.
     pub fn check(&self) -> Result<(), Failure> {
         let refuse = |text: String| Err(Failure::Input(anyhow!(text)));
         if let Some([fx, fy, cx, cy]) = self.camera
-            && !Camera::new(fx, fy, cx, cy).is_usable()
+            && !([fx, fy].iter().all(|f| FOCAL_LENGTHS_PX.contains(&f.abs()))
+                && [cx, cy].iter().all(|c| c.abs() <= *FOCAL_LENGTHS_PX.end()))
         {
             let [fx, fy, cx, cy] = [fx, fy, cx, cy].map(shown);
             return refuse(format!(
-                "--camera: found fx {fx}, fy {fy}, cx {cx}, cy {cy}, expected finite numbers, fx and \
-                 fy not 0"
+                "--camera: found fx {fx}, fy {fy}, cx {cx}, cy {cy}, expected pixels up to 1e7, \
+                 fx and fy at least 1e-3"
             ));
         }
         if let Some(scale) = self.depth_scale.filter(|scale| !SCALES.contains(scale)) {

@@ -14,7 +14,7 @@ use sensing::DepthImage;
 use serde_json::{Value, json};
 
 use super::super::failure::Failure;
-use super::super::files::vacant;
+use super::super::files::{apart, vacant};
 use super::super::graph::numbers::shown;
 use super::super::out::Out;
 use super::args::LadderArgs;
@@ -56,6 +56,7 @@ pub(super) fn ladder(args: &LadderArgs, out: &Out) -> Result<(), Failure> {
         .record
         .clone()
         .unwrap_or_else(|| PathBuf::from("recordings").join(format!("{}.rrd", config.name)));
+    apart(&record, [args.config.as_path()].into_iter().chain(args.depth.as_deref()))?;
     vacant(&record, args.force)?;
     let (image, from): (DepthImage, String) = match &args.depth {
         Some(path) => {
@@ -67,8 +68,12 @@ pub(super) fn ladder(args: &LadderArgs, out: &Out) -> Result<(), Failure> {
         None => (config.room.image(), "a made-up room".to_owned()),
     };
     let refused = |error: Maps3dError| Failure::Input(anyhow!("{from}: {error}"));
-    // What is wrong with the image shows before a file is made.
+    // What is wrong shows before a file is made.
     maps3d::image::prepare(&image, &view(&config, None).prepare).map_err(refused)?;
+    for reduce in config.methods().into_iter().flat_map(|m| reductions(m, &config.ladder.vertices))
+    {
+        view(&config, reduce).check().map_err(refused)?;
+    }
     if let Some(folder) = record.parent().filter(|folder| !folder.as_os_str().is_empty()) {
         std::fs::create_dir_all(folder)
             .map_err(|error| Failure::Work(anyhow!("{}: {error}", folder.display())))?;

@@ -17,7 +17,7 @@ use super::told::Told;
 use super::{depth_args, depth_input};
 
 pub(super) fn polyhedron(args: &PolyhedronArgs, out: &Out) -> Result<(), Failure> {
-    let target = args.output.target()?;
+    let target = args.output.target(&[&args.depth.depth])?;
     let depth = &args.depth;
     let path = depth.depth.display().to_string();
     let refused = |error: Maps3dError| depth_args::refused(&path, &error);

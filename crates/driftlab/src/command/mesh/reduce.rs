@@ -22,7 +22,7 @@ pub(super) fn reduce(args: &ReduceArgs, out: &Out) -> Result<(), Failure> {
             args.error
         )));
     }
-    let target = args.output.target()?;
+    let target = args.output.target(&[&args.file])?;
     let read = input::mesh(&args.file, args.input.weld, out)?;
     let goal = Goal { error_m: args.error, faces: args.faces };
     let mut recording = match &args.output.recording.record {

@@ -11,9 +11,7 @@ use super::super::failure::Failure;
 use super::super::files::{free, write_whole};
 use super::super::out::Out;
 use super::args::RoomArgs;
-
-/// Levels of the file per metre, as depth cameras mostly count.
-const UNITS_PER_METRE: f64 = 1000.0;
+use super::depth_input::UNITS_PER_METRE;
 
 pub(super) fn room(args: &RoomArgs, out: &Out) -> Result<(), Failure> {
     let extension = args.output.extension().and_then(|extension| extension.to_str());

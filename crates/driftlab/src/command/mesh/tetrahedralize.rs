@@ -21,7 +21,7 @@ pub(super) fn tetrahedralize(args: &TetrahedralizeArgs, out: &Out) -> Result<(),
     let recording = &args.recording;
     let target =
         args.output.as_deref().map(|path| Target::new(path, recording.force)).transpose()?;
-    recording.check()?;
+    recording.check([args.file.as_path()].into_iter().chain(args.output.as_deref()))?;
     let read = input::mesh(&args.file, args.input.weld, out)?;
     let holes = &read.file.hole_points;
     let inside = if args.enclosed || !holes.is_empty() {
