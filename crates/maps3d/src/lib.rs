@@ -12,6 +12,7 @@ pub mod view;
 mod error;
 mod events;
 mod pipeline;
+mod tolerance;
 
 pub use error::Maps3dError;
 pub use events::DepthEvent;

@@ -1,6 +1,7 @@
 //! Vertices drawn towards the camera until no more than a bound lies outside.
 
 use crate::image::FilledImage;
+use crate::tolerance::ROUNDING_SHARE;
 use crate::triangulate::ImageMesh;
 
 use super::segments::{Place, Segment, visit};
@@ -30,7 +31,7 @@ pub fn withhold(image: &FilledImage, mesh: &mut ImageMesh, bound_m: f64) -> usiz
     for (depth_m, raise) in mesh.depths_m.iter_mut().zip(&raise) {
         if *raise > 0.0 {
             // A little more than needed, for rounding.
-            *depth_m = 1.0 / ((1.0 / *depth_m + raise) * (1.0 + 1e-12));
+            *depth_m = 1.0 / ((1.0 / *depth_m + raise) * (1.0 + ROUNDING_SHARE));
         }
     }
     raise.iter().filter(|raise| **raise > 0.0).count()

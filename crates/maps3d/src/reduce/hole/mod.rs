@@ -64,8 +64,9 @@ pub(super) struct Scratch {
     monotone: monotone::Sweep,
 }
 
-/// The most pixels around a hole; a vertex with more neighbours is not removed.
-pub(super) const LARGEST: usize = u16::MAX as usize;
+/// The most pixels around a hole; a vertex with more neighbours is not removed. Places in a hole are
+/// added to each other in 16 bits.
+pub(super) const LARGEST: usize = (u16::MAX / 2) as usize;
 
 /// Triangulates a hole; the triangles are left in `scratch.pieces`.
 ///

@@ -6,6 +6,7 @@ use super::InverseDepth;
 use super::plane::LiftedPlane;
 use super::scan::{HEADS, LANES, Lanes, RAMP, Sheet, each};
 use crate::image::FilledImage;
+use crate::tolerance::FITTED_SHARE;
 use crate::triangulate::{ImageMesh, orient, rows_of};
 
 /// Rounds of weighting and solving.
@@ -113,7 +114,7 @@ impl System {
         let mut scaled: Vec<f64> = left.iter().zip(&self.diagonal).map(|(r, d)| r / d).collect();
         let mut along = scaled.clone();
         let mut size = dot(&left, &scaled);
-        let enough = 1e-12 * size;
+        let enough = FITTED_SHARE * size;
         for _ in 0..STEPS {
             if size <= enough || !size.is_finite() {
                 break;

@@ -27,7 +27,8 @@ use crate::triangulate::{ImageMesh, orient};
 ///    Below [`COARSE`] vertices, four times as many are put in, and taken out again before that.
 ///
 /// With a bound, vertices keep their measured depths, no median is taken, missing pixels count like
-/// others and step 4 is left out: the bound then holds for every pixel. O(pixels log vertices) for images in which detail is spread.
+/// others and step 4 is left out: the bound then holds for every pixel. O(pixels log vertices) for
+/// images in which detail is spread.
 pub(in crate::reduce) fn grow<P>(
     image: &FilledImage,
     options: &InverseDepth,

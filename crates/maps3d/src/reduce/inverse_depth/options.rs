@@ -42,8 +42,9 @@ impl Default for InverseDepth {
     }
 }
 
-/// Below so many vertices, more are put in and thinned out; and the cap is larger, in proportion: a face that covers several surfaces has
-/// most of its pixels beyond any small cap, and the sum would no longer tell good from bad.
+/// Below so many vertices, more are put in and thinned out; and the cap is larger, in proportion: a face
+/// that covers several surfaces has most of its pixels beyond any small cap, and the sum would no longer
+/// tell good from bad.
 pub(super) const COARSE: f64 = 400.0;
 
 impl InverseDepth {

@@ -2,6 +2,8 @@
 
 use nalgebra::{Matrix3, Vector3};
 
+use crate::tolerance::{EIGENVALUE_SLOPE, EIGENVALUE_STEP, LINE_SHARE};
+
 /// How the contribution of a vertex inside of the image is measured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash)]
 pub enum Contribution {
@@ -46,7 +48,7 @@ pub(super) fn contribution(kind: Contribution, point: [f32; 3], neighbours: &[[f
     if kind == Contribution::LeastSquaresVertical {
         let det = xx * yy - xy * xy;
         // Neighbours above one line fix no slope; the plane through their middle is level.
-        if det <= 1e-12 * (xx + yy) * (xx + yy) {
+        if det <= LINE_SHARE * (xx + yy) * (xx + yy) {
             return off.z.abs();
         }
         let a = (xz * yy - yz * xy) / det;
@@ -78,12 +80,12 @@ fn off_plane(m: &Matrix3<f64>, off: &Point) -> f64 {
     for _ in 0..12 {
         let value = ((l - 1.0) * l + p) * l - q;
         let slope = (3.0 * l - 2.0) * l + p;
-        if slope <= 1e-14 {
+        if slope <= EIGENVALUE_SLOPE {
             break;
         }
         let step = value / slope;
         l -= step;
-        if step.abs() < 1e-13 {
+        if step.abs() < EIGENVALUE_STEP {
             break;
         }
     }
@@ -91,7 +93,7 @@ fn off_plane(m: &Matrix3<f64>, off: &Point) -> f64 {
     let [xy, xz, yz] = [m[(0, 1)], m[(0, 2)], m[(1, 2)]];
     let [axx, ayy, azz] = [yy * zz - yz * yz, xx * zz - xz * xz, xx * yy - xy * xy];
     let size = axx + ayy + azz;
-    if size > 1e-12 {
+    if size > LINE_SHARE {
         let [axy, axz, ayz] = [xz * yz - xy * zz, xy * yz - xz * yy, xy * xz - xx * yz];
         let along = (axx * off.x + 2.0 * (axy * off.y + axz * off.z)) * off.x
             + (ayy * off.y + 2.0 * ayz * off.z) * off.y
@@ -103,7 +105,7 @@ fn off_plane(m: &Matrix3<f64>, off: &Point) -> f64 {
     let longest = |a: &Point, b: &Point| a.norm_squared().total_cmp(&b.norm_squared());
     let Some(row) = rows.into_iter().max_by(longest) else { return 0.0 };
     let axis = if row.x.abs() <= row.y.abs().min(row.z.abs()) { Point::x() } else { Point::y() };
-    let axis = if row.norm() > 1e-12 { row.cross(&axis) } else { axis };
+    let axis = if row.norm() > LINE_SHARE { row.cross(&axis) } else { axis };
     axis.try_normalize(0.0).map_or(0.0, |normal| normal.dot(off).abs())
 }
 
