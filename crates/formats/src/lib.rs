@@ -14,6 +14,7 @@ pub mod pose_graph;
 pub mod tiff;
 pub mod tum;
 
+mod binary;
 mod cloud;
 mod error;
 mod gray;

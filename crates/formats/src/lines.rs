@@ -1,5 +1,7 @@
 //! Text files as numbered lines.
 
+use std::borrow::Cow;
+
 use crate::FormatError;
 use crate::error::Position;
 
@@ -25,6 +27,16 @@ pub(crate) fn without_mark(text: &str) -> &str {
     text.strip_prefix('\u{feff}').unwrap_or(text)
 }
 
+/// The bytes with line ends as they are read: where there are carriage returns and no line feed at all,
+/// as old Macintosh programs wrote, each return ends a line. Borrowed in every other case, at the cost of
+/// looking for the first line feed.
+pub(crate) fn with_line_feeds(bytes: &[u8]) -> Cow<'_, [u8]> {
+    if bytes.contains(&b'\n') || !bytes.contains(&b'\r') {
+        return Cow::Borrowed(bytes);
+    }
+    Cow::Owned(bytes.iter().map(|&byte| if byte == b'\r' { b'\n' } else { byte }).collect())
+}
+
 /// Position of the byte `offset` of a line, which must be a character boundary.
 pub(crate) fn position(line: usize, text: &str, offset: usize) -> Position {
     let before = text.get(..offset).unwrap_or(text);
@@ -40,6 +52,14 @@ mod tests {
         assert_eq!(text(b"\xef\xbb\xbfab"), Ok("ab"));
         let error = text(b"abc\xff").expect_err("not UTF-8");
         assert_eq!(error.to_string(), "byte 3: found byte 0xff, expected UTF-8 text");
+    }
+
+    #[test]
+    fn a_return_ends_a_line_where_nothing_else_does() {
+        assert_eq!(*with_line_feeds(b"a\rb\r"), *b"a\nb\n");
+        for bytes in [&b"a\r\nb\r\n"[..], b"a\rb\n", b"ab", b""] {
+            assert!(matches!(with_line_feeds(bytes), Cow::Borrowed(same) if same == bytes));
+        }
     }
 
     #[test]

@@ -3,6 +3,8 @@
 use pose::Se3;
 
 use crate::FormatError;
+use crate::binary::refuse_binary;
+use crate::lines::with_line_feeds;
 use crate::pose_graph::{Lexer, push_number, quaternion};
 
 /// Poses in the order of a file, each with its time.
@@ -21,7 +23,9 @@ pub struct Trajectory {
 /// numbers, a quaternion without a direction, a file without a pose.
 pub fn read(bytes: &[u8]) -> Result<Trajectory, FormatError> {
     const EXPECTED: &str = "a pose `timestamp tx ty tz qx qy qz qw`";
-    let mut lexer = Lexer::new(bytes);
+    refuse_binary(bytes, EXPECTED)?;
+    let bytes = with_line_feeds(bytes);
+    let mut lexer = Lexer::new(&bytes);
     let mut trajectory = Trajectory::default();
     while lexer.next_line() {
         let [stamp, x, y, z] = lexer.floats("timestamp tx ty tz of a pose")?;
@@ -54,6 +58,7 @@ pub fn write(trajectory: &Trajectory) -> Vec<u8> {
 
 /// Whether the first line that holds a word holds eight numbers.
 pub(crate) fn looks_like(bytes: &[u8]) -> bool {
-    let mut lexer = Lexer::new(bytes);
+    let bytes = with_line_feeds(bytes);
+    let mut lexer = Lexer::new(&bytes);
     lexer.next_line() && lexer.floats::<8>("").is_ok() && lexer.at_end_of_line()
 }

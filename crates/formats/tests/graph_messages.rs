@@ -23,6 +23,23 @@ fn space(text: &str) -> (FactorGraph3, pose_graph::GraphFileReport) {
 const UNIT3: &str = "1 0 0 0 0 0 1 0 0 0 0 1 0 0 0 1 0 0 1 0 1";
 
 #[test]
+fn returns_alone_end_lines_and_packed_files_are_named() {
+    let text = "VERTEX_SE2 0 0 0 0\nVERTEX_SE2 1 1 0 0\nEDGE_SE2 0 1 1 0 0 1 0 0 1 0 1\n";
+    let (graph, report) = plane(&text.replace('\n', "\r"));
+    assert_eq!((graph, report), plane(text));
+    let path = "0 1 2 3 0 0 0 1\n1 1 2 3 0 0 0 1\n";
+    assert_eq!(tum::read(path.replace('\n', "\r").as_bytes()), tum::read(path.as_bytes()));
+    for bytes in [&b"\x1f\x8b\x08\x08VERTEX"[..], b"\x1f\x8b"] {
+        let found =
+            "byte 0: found a gzip-compressed file (decompress it first: gunzip), expected a pose";
+        let graph = pose_graph::read(bytes).expect_err("packed").to_string();
+        assert!(graph.starts_with(found), "{graph}");
+        let path = tum::read(bytes).expect_err("packed").to_string();
+        assert!(path.starts_with(found), "{path}");
+    }
+}
+
+#[test]
 fn errors_say_where_what_and_what_instead() {
     let graph = "a pose graph: a line that starts with VERTEX_SE2, VERTEX_SE3:QUAT, EDGE_SE2, \
                  EDGE_SE3:QUAT, VERTEX2, VERTEX3, EDGE2 or EDGE3";

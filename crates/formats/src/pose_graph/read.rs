@@ -10,25 +10,30 @@ use super::report::{GraphFileReport, Tally, UnknownTag, WarningKind};
 use super::tags::{self, GraphFormat, Tag};
 use super::{AnyGraph, GraphFile};
 use crate::FormatError;
+use crate::binary::refuse_binary;
 use crate::error::quote;
 use crate::lexer::Lexer;
+use crate::lines::with_line_feeds;
 
 /// Reads a pose graph from the bytes of a g2o or TORO file, in two or three dimensions.
 ///
 /// Vertices come out in the order of their ids, edges in the order of the file. Memory and time are
-/// linear in the size of the file (sorting the ids where they are sparse adds a logarithm).
+/// linear in the size of the file (sorting the ids where they are sparse adds a logarithm). Lines end
+/// with a line feed, with or without a carriage return before it; in a file without any, with a return.
 ///
 /// # Errors
 /// [`FormatError::Unexpected`] with line and column: a number that is none or not finite, a line
 /// that ends too early, a quaternion without a direction, two and three dimensions in one file, or
 /// a file without any vertex or edge. Everything else is in the report.
 pub fn read(bytes: &[u8]) -> Result<GraphFile, FormatError> {
+    const EXPECTED: &str = "a pose graph: a line that starts with VERTEX_SE2, VERTEX_SE3:QUAT, \
+                            EDGE_SE2, EDGE_SE3:QUAT, VERTEX2, VERTEX3, EDGE2 or EDGE3";
+    let bytes = &*with_line_feeds(bytes);
     let Some((format, dimensions)) = first_tag(bytes) else {
+        refuse_binary(bytes, EXPECTED)?;
         let mut lexer = Lexer::new(bytes);
         lexer.next_line();
-        let expected = "a pose graph: a line that starts with VERTEX_SE2, VERTEX_SE3:QUAT, \
-                        EDGE_SE2, EDGE_SE3:QUAT, VERTEX2, VERTEX3, EDGE2 or EDGE3";
-        return Err(lexer.unexpected(expected));
+        return Err(lexer.unexpected(EXPECTED));
     };
     if dimensions == 2 {
         let (graph, report) = assemble(collect::<Se2, 3>(bytes, format)?);

@@ -56,7 +56,8 @@ pub enum WarningKind {
         /// The id of the first.
         first_id: u64,
     },
-    /// Information matrices that are not positive definite; kept as they are.
+    /// Information matrices that are not positive definite; the reader keeps them as they are, the
+    /// optimiser counts negative eigenvalues as 0.
     IndefiniteInformation,
     /// `FIX` of a vertex that the file does not have; left out.
     FixedStranger {
@@ -101,7 +102,8 @@ impl fmt::Display for GraphWarning {
             ),
             WarningKind::IndefiniteInformation => write!(
                 f,
-                "line {first_line}: {count} information matrices are not positive definite; kept"
+                "line {first_line}: {count} information matrices are not positive definite; kept, but \
+                 an optimiser counts their negative eigenvalues as 0"
             ),
             WarningKind::FixedStranger { first_id } => write!(
                 f,
