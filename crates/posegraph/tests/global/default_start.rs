@@ -3,7 +3,7 @@
 use pose::Se2;
 use pose::nalgebra::Matrix3;
 use posegraph::initial::default::Origin;
-use posegraph::initial::{spanning_tree, surest_tree};
+use posegraph::initial::{asked_start_by, odometry, spanning_tree, surest_tree};
 use posegraph::synthetic::{Noise, Sphere, Synthetic, Torus, Walk, sphere, torus, walk};
 use posegraph::{
     Factor, FactorGraph, Loss, Options, Rigid, SynchronizeOptions, certify, default_start, optimize,
@@ -47,6 +47,48 @@ fn tori_of_great_noise_are_solved_without_starts_that_lead_astray() {
         assert!(trials.iter().all(|trial| trial.origin != Origin::Odometry), "{trials:?}");
         assert!(trials[1].chi2 < trials[0].chi2, "{trials:?}");
     }
+}
+
+/// A start that is asked for is the first, not the last: where it leads into another minimum others follow.
+#[test]
+fn an_asked_start_that_leads_astray_is_followed_by_others() {
+    let options = Options::default();
+    let mut astray = 0;
+    for seed in 0..3 {
+        let noise = Noise { translation_m: 0.1, rotation_rad: 0.1 };
+        let made =
+            torus(&Torus { rounds: 20, poses_per_round: 20, noise, seed, ..Torus::default() });
+        let graph = &made.graph;
+        let known = default_start(graph, &options).solution.report.chi2;
+        let run = |poses: &[_], options: &_| optimize(graph, poses, options);
+        let found = asked_start_by(graph, Origin::Odometry, odometry(graph), &options, run);
+        let chi2 = found.solution.report.chi2;
+        assert!(chi2 <= known * (1.0 + 1e-6), "{chi2} against {known}: {:?}", found.trials);
+        assert_eq!(found.trials[0].origin, Origin::Odometry);
+        let alone = optimize(graph, &odometry(graph), &options).report.chi2;
+        assert_eq!(found.trials[0].chi2, alone);
+        let led_astray = alone > known * (1.0 + 1e-6);
+        assert_eq!(led_astray, found.origin != Origin::Odometry, "{:?}", found.trials);
+        astray += usize::from(led_astray);
+    }
+    assert!(astray > 0, "odometry leads nowhere else: the test shows nothing");
+}
+
+/// Information that claims far too much makes every `χ²` too high; where no loop is bent, that is no reason
+/// to look for another minimum.
+#[test]
+fn boastful_information_alone_raises_no_doubt() {
+    let noise = Noise { translation_m: 0.01, rotation_rad: 0.003 };
+    let params = Sphere { rounds: 8, poses_per_round: 10, noise, ..Default::default() };
+    let mut graph = sphere(&params).graph;
+    for factor in &mut graph.factors {
+        factor.information *= 1e4;
+    }
+    let found = default_start(&graph, &Options::default());
+    assert!(found.judgement.chi2_per_degree > 100.0);
+    assert!(found.judgement.loop_rad > 0.0);
+    assert_eq!(found.judgement.doubt, None);
+    assert_eq!((found.trials.len(), found.verdict), (1, None));
 }
 
 /// Few closures of long loops, as at MIT's Killian Court: what is rarely reached from odometry.

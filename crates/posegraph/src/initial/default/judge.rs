@@ -10,6 +10,11 @@ use crate::synchronize::Rigid;
 /// wound once too often: with the same measurements the sum could as well be a full turn less.
 const LOOP_RAD: f64 = std::f64::consts::FRAC_PI_2;
 
+/// Where errors around no loop add up to more than this, about each axis, a cost that is too high speaks
+/// against the information matrices and not against the solution: every other valley winds around
+/// some loop once more or less, and where rotations are right, translations are a linear problem.
+const SURE_RAD: f64 = LOOP_RAD / 8.0;
+
 /// `χ²` may exceed its expectation by so many standard deviations.
 const DEVIATIONS: f64 = 5.0;
 
@@ -18,7 +23,8 @@ const DEVIATIONS: f64 = 5.0;
 pub enum Doubt {
     /// The optimiser did not converge.
     NotConverged,
-    /// `χ²` is larger than the information matrices can explain.
+    /// `χ²` is larger than the information matrices can explain, and rotation errors around some loop
+    /// are more than next to nothing.
     Cost {
         /// `χ²` of the solution.
         chi2: f64,
@@ -53,6 +59,11 @@ pub struct Judgement {
 const CALIBRATED: f64 = 0.8;
 
 impl Judgement {
+    /// Whether there is no doubt.
+    pub(super) fn is_believed(&self) -> bool {
+        self.doubt.is_none()
+    }
+
     /// Whether noise explains a solution: there is no doubt, or `χ²` is about what noise leaves. Then
     /// errors around a loop may add up to much, and steps that still circle are in the right valley.
     pub(super) fn is_explained(&self) -> bool {
@@ -62,8 +73,8 @@ impl Judgement {
     }
 }
 
-/// Judges a solution by what needs no factorisation.
-pub(super) fn judge<P: Rigid<D>, const D: usize>(
+/// Judges a solution by what needs no factorisation; linear in vertices and factors.
+pub fn judge<P: Rigid<D>, const D: usize>(
     graph: &FactorGraph<P, D>,
     solution: &Solution<P>,
 ) -> Judgement {
@@ -73,10 +84,11 @@ pub(super) fn judge<P: Rigid<D>, const D: usize>(
     let degrees = (D * used).saturating_sub(D * free);
     let limit = degrees as f64 + DEVIATIONS * (2.0 * degrees as f64).sqrt();
     let (factor, sum_rad) = worst_loop(graph, &report.information, &solution.poses);
-    let limit_rad = LOOP_RAD * (if P::DIM == 2 { 1.0 } else { 3.0_f64 }).sqrt();
+    let axes = (if P::DIM == 2 { 1.0 } else { 3.0_f64 }).sqrt();
+    let limit_rad = LOOP_RAD * axes;
     let doubt = if !report.termination.is_converged() {
         Some(Doubt::NotConverged)
-    } else if report.chi2 > limit {
+    } else if report.chi2 > limit && sum_rad > SURE_RAD * axes {
         Some(Doubt::Cost { chi2: report.chi2, limit })
     } else if sum_rad > limit_rad {
         Some(Doubt::Loop { factor, sum_rad, limit_rad })

@@ -118,15 +118,41 @@ pub fn default_start_with<P: Rigid<D>, const D: usize>(
 pub fn default_start_by<P: Rigid<D>, const D: usize>(
     graph: &FactorGraph<P, D>,
     options: &Options,
-    mut run: impl FnMut(&[P], &Options) -> Solution<P>,
+    run: impl FnMut(&[P], &Options) -> Solution<P>,
 ) -> Start<P> {
-    let trusting = options.loss == Loss::None;
-    let options = &Options { solver: Solver::GaussNewton, ..*options };
-    let (origin, first) = if trusting {
+    let (origin, first) = if options.loss == Loss::None {
         (Origin::Chordal, chordal(graph))
     } else {
         (Origin::Odometry, odometry(graph))
     };
+    climb(graph, origin, first, Judgement::is_believed, options, run)
+}
+
+/// The start that a caller asks for, and better ones where the solution from there is not believed.
+///
+/// As [`default_start_by`], but `first` is the first of the trials, of this origin, and stands as soon as it
+/// converges to a cost that noise explains; only else the chordal start follows, and the rest.
+pub fn asked_start_by<P: Rigid<D>, const D: usize>(
+    graph: &FactorGraph<P, D>,
+    origin: Origin,
+    first: Vec<P>,
+    options: &Options,
+    run: impl FnMut(&[P], &Options) -> Solution<P>,
+) -> Start<P> {
+    climb(graph, origin, first, Judgement::is_explained, options, run)
+}
+
+/// Tries one start after the other until there is one whose solution is believed.
+fn climb<P: Rigid<D>, const D: usize>(
+    graph: &FactorGraph<P, D>,
+    origin: Origin,
+    first: Vec<P>,
+    suffices: impl Fn(&Judgement) -> bool,
+    options: &Options,
+    mut run: impl FnMut(&[P], &Options) -> Solution<P>,
+) -> Start<P> {
+    let trusting = options.loss == Loss::None;
+    let options = &Options { solver: Solver::GaussNewton, ..*options };
     let solution = run(&first, options);
     let judgement = judge(graph, &solution);
     let mut start = Start {
@@ -137,7 +163,8 @@ pub fn default_start_by<P: Rigid<D>, const D: usize>(
         trials: vec![trial(origin, &solution)],
         solution,
     };
-    if judgement.doubt.is_none() || !trusting {
+    let stands = suffices(&judgement) && start.solution.report.termination.is_converged();
+    if stands || !trusting {
         return start;
     }
     let mut better: Option<Better<P>> = None;
@@ -151,6 +178,13 @@ pub fn default_start_by<P: Rigid<D>, const D: usize>(
                 *better = Some(Better { origin, poses, solution });
             }
         };
+    if origin != Origin::Chordal {
+        try_from(Origin::Chordal, chordal(graph), &mut start, &mut better);
+        let lowest = better.as_ref().map_or(&start.solution, |better| &better.solution);
+        if suffices(&judge(graph, lowest)) && lowest.report.termination.is_converged() {
+            return start.with(better);
+        }
+    }
     // Which valley it is needs no more digits, and a graph without a tight relaxation no more ranks.
     let effort = SynchronizeOptions {
         max_rank: P::DIM + 1,
@@ -158,12 +192,13 @@ pub fn default_start_by<P: Rigid<D>, const D: usize>(
         relative_decrease: 1e-10,
         relative_gap: 1e-5,
     };
-    let certificate = certify(graph, &start.solution.poses, &effort);
+    let lowest = better.as_ref().map_or(&start.solution, |better| &better.solution);
+    let certificate = certify(graph, &lowest.poses, &effort);
     start.verdict = Some(certificate.verdict);
     let certified = certificate.verdict == Verdict::GloballyOptimal;
-    let near = turned_apart(&start.solution.poses, &certificate.poses) < SAME_VALLEY_RAD;
-    if certified && near && start.solution.report.termination.is_converged() {
-        return start;
+    let near = turned_apart(&lowest.poses, &certificate.poses) < SAME_VALLEY_RAD;
+    if certified && near && lowest.report.termination.is_converged() {
+        return start.with(better);
     }
     if certificate.verdict != Verdict::NotApplicable {
         try_from(Origin::Synchronized, certificate.poses, &mut start, &mut better);
@@ -176,8 +211,12 @@ pub fn default_start_by<P: Rigid<D>, const D: usize>(
         _ => !certified && !judged.is_explained(),
     };
     if go_on {
-        try_from(Origin::Odometry, odometry(graph), &mut start, &mut better);
-        try_from(Origin::SpanningTree, spanning_tree(graph), &mut start, &mut better);
+        if origin != Origin::Odometry {
+            try_from(Origin::Odometry, odometry(graph), &mut start, &mut better);
+        }
+        if origin != Origin::SpanningTree {
+            try_from(Origin::SpanningTree, spanning_tree(graph), &mut start, &mut better);
+        }
         let tree = surest_tree(graph);
         if P::DIM == 2 {
             let lowest = better.as_ref().map_or(&start.solution, |better| &better.solution);
@@ -199,11 +238,7 @@ pub fn default_start_by<P: Rigid<D>, const D: usize>(
         let poses = optimize(graph, &lowest.poses, &damped).poses;
         try_from(Origin::Damped, poses, &mut start, &mut better);
     }
-    if let Some(Better { origin, poses, solution }) = better {
-        Start { poses, origin, solution, ..start }
-    } else {
-        start
-    }
+    start.with(better)
 }
 
 /// Iterations in which factors may disagree: it decides about valleys, not about digits.
@@ -233,6 +268,16 @@ const SAME_VALLEY_RAD: f64 = std::f64::consts::FRAC_PI_8;
 /// The largest angle between rotations of the same vertex.
 fn turned_apart<P: Rigid<D>, const D: usize>(a: &[P], b: &[P]) -> f64 {
     a.iter().zip(b).map(|(a, b)| P::turn_between(a, b).norm()).fold(0.0, f64::max)
+}
+
+impl<P> Start<P> {
+    /// The same with a better start in the place of the first, where there is one.
+    fn with(self, better: Option<Better<P>>) -> Self {
+        match better {
+            Some(Better { origin, poses, solution }) => Self { poses, origin, solution, ..self },
+            None => self,
+        }
+    }
 }
 
 /// A start that led lower than the first, and where it led.

@@ -7,7 +7,9 @@
 //! 2. The solution is **judged** ([`Judgement`]) by what costs next to nothing:
 //!    - it converged;
 //!    - `χ²` is at most its expectation, the degrees of freedom `ν`, and five standard deviations
-//!      `√(2 ν)` more, which catches wrong minima where the information matrices are right;
+//!      `√(2 ν)` more, which catches wrong minima where the information matrices are right. Where they
+//!      claim far too much, every `χ²` is too high: a solution whose rotation errors add up to less than an
+//!      eighth of the next limit around every loop is believed all the same;
 //!    - rotation errors, added up around each loop of a breadth-first tree, stay below a quarter of a
 //!      turn about each axis. This has no unit, so it holds where the information matrices are far too small and any
 //!      `χ²` would look good: a solution that winds around a loop once too often has errors there that
@@ -27,10 +29,15 @@
 //!    too high, so that noise is as large as the information matrices say.
 //! 5. Where even the lowest did not converge, damped steps go on from it.
 //!
+//! A start that is asked for ([`asked_start_by`]) takes the place of the first, and stands as soon as it
+//! converges and noise explains its cost; else 1 to 5 follow, and the lowest wins.
+//!
 //! `χ²` has no certificate: a start that passes is plausible, not proven. Nothing is looked up.
 
 mod judge;
 mod ladder;
 
-pub use judge::{Doubt, Judgement};
-pub use ladder::{Origin, Start, Trial, default_start, default_start_by, default_start_with};
+pub use judge::{Doubt, Judgement, judge};
+pub use ladder::{
+    Origin, Start, Trial, asked_start_by, default_start, default_start_by, default_start_with,
+};
