@@ -2,6 +2,8 @@
 
 use pose::nalgebra::{DMatrix, SymmetricEigen};
 
+use crate::linear::dot;
+
 /// An eigenvalue with its vector.
 #[derive(Clone, Debug, PartialEq)]
 pub(crate) struct Eigenpair {
@@ -31,7 +33,6 @@ pub(crate) fn largest_eigenpair(
             }
         }
     };
-    let dot = |a: &[f64], b: &[f64]| a.iter().zip(b).map(|(a, b)| a * b).sum::<f64>();
     let mut v: Vec<f64> = (0..rows).map(scattered).collect();
     keep(&mut v);
     let norm = dot(&v, &v).sqrt().max(f64::MIN_POSITIVE);

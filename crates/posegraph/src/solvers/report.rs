@@ -79,7 +79,11 @@ impl Termination {
     }
 }
 
-/// One iteration: one linearisation and one factorisation, whether its step was taken or not.
+/// One iteration: one step that was computed, whether it was taken or not.
+///
+/// That is one linearisation and one factorisation as a rule: a step that was taken back leaves the
+/// linearisation as it was, a last step by the factor before it needs none, and a matrix that is not
+/// positive definite is factorised again with more damping.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Iteration {
     /// Counts from 1.

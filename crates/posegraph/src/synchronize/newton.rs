@@ -7,6 +7,7 @@ use super::problem::{Block, Problem};
 use super::sparse::{BlockCholesky, Part};
 use super::stiefel::{multipliers, retract, subtract_product};
 use super::tangent::Tangent;
+use crate::linear::dot;
 
 /// When a descent ends.
 #[derive(Clone, Copy, Debug)]
@@ -25,10 +26,6 @@ pub(crate) struct Descent<const B: usize> {
     /// Lagrange multipliers of orthonormality at `x`.
     pub(crate) multipliers: Vec<Block<B>>,
     pub(crate) converged: bool,
-}
-
-fn dot(a: &[f64], b: &[f64]) -> f64 {
-    a.iter().zip(b).map(|(a, b)| a * b).sum()
 }
 
 /// Smallest damping, as a share of the diagonal of `M`: makes up for directions without curvature.
