@@ -247,6 +247,25 @@ fn an_estimate_is_compared_with_the_truth() {
     assert_eq!(after["rpe"]["translation_m"]["count"], 220);
     let origin = desk.json(&["compare", "truth.tum", "b.g2o", "--align", "origin"]);
     assert!(ate(&origin) >= ate(&after));
+    desk.put("square.g2o", SQUARE);
+    let output = desk.graph(&["compare", "square.g2o", "b.g2o"]);
+    let told = "warning: square.g2o is in 2D and b.g2o in 3D; poses of the plane are compared as at height 0\n";
+    assert_eq!((output.status.code(), stderr(&output).as_str()), (Some(0), told));
+}
+
+#[test]
+fn a_certificate_says_how_wide_its_gap_is_and_of_which_poses() {
+    let desk = Desk::new();
+    desk.put("square.g2o", SQUARE);
+    let done = desk.json(&["optimize", "square.g2o", "--certify"]);
+    let certificate = &done["certificate"];
+    assert_eq!(certificate["verdict"], "globally_optimal");
+    let number = |key: &str| certificate[key].as_f64().expect(key);
+    assert_eq!(number("gap_relative"), number("gap") / number("sesync_cost"));
+    assert!((0.0..1e-4).contains(&number("gap_relative")));
+    // Of the square both costs have nearly the same solution.
+    assert!((0.0..0.01).contains(&number("poses_apart_m")), "{certificate}");
+    assert!((0.0..0.01).contains(&number("poses_apart_rad")), "{certificate}");
 }
 
 #[test]

@@ -21,7 +21,12 @@ pub(super) enum GraphCommand {
             Reads g2o (VERTEX_SE2, VERTEX_SE3:QUAT, EDGE_SE2, EDGE_SE3:QUAT, FIX) and TORO (VERTEX2, \
             VERTEX3, EDGE2, EDGE3), told by content. Minimises chi2, the sum of e' I e with g2o's \
             error: translation and, in 3D, the vector part of the quaternion. In each component \
-            without a FIX the first vertex is held.",
+            without a FIX the first vertex is held.\n\n\
+            Without --init the chordal start is tried first. Where noise cannot explain what it leads \
+            to, or a loop is wound, others follow and the lowest wins: `synchronized` (SE-Sync's \
+            solution), `odometry`, `spanning-tree`, `surest-tree` (edges that measure rotations best), \
+            `loosened-tree` and `loosened-odometry` (after edges were allowed to disagree), `damped` \
+            (the lowest of all, after damped steps). `init` and `init_trials` of --json tell which.",
         after_help = "Examples:\n  \
             driftlab graph optimize sphere.g2o -o out.g2o\n  \
             driftlab graph optimize sphere.g2o --solver lm --record sphere.rrd\n  \
@@ -67,13 +72,13 @@ pub(super) struct InfoArgs {
 /// Where a start comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 pub(super) enum Init {
-    /// The vertices of the file, completed along edges
+    /// The vertices of the file, completed along edges; there and nowhere else
     File,
-    /// The chain of edges from each vertex to the next
+    /// The chain of edges from each vertex to the next; others too where the end cannot be believed
     Odometry,
-    /// The fewest edges from the first vertex
+    /// The fewest edges from the first vertex; others too where the end cannot be believed
     SpanningTree,
-    /// All edges at once by linear systems, rotations first
+    /// All edges at once by linear systems, rotations first; there and nowhere else
     Chordal,
 }
 
@@ -136,7 +141,8 @@ pub(super) struct OptimizeArgs {
     /// Solve SE-Sync's problem too, and tell whether its solution is the global optimum
     #[arg(long)]
     pub(super) certify: bool,
-    /// End after this many iterations
+    /// End each optimisation after this many iterations; a start may take several optimisations, and
+    /// its certificate up to 40 iterations of its own
     #[arg(long, value_name = "N", default_value_t = 100)]
     pub(super) max_iterations: usize,
     /// Threads that may work at the same time; results do not depend on it

@@ -14,7 +14,17 @@ use super::input;
 use super::numbers::shown;
 
 pub(super) fn compare(args: &CompareArgs, out: &Out) -> Result<(), Failure> {
-    let (a, b) = (input::poses(&args.a, out)?, input::poses(&args.b, out)?);
+    let (first, second) = (input::poses(&args.a, out)?, input::poses(&args.b, out)?);
+    if let (Some(2), Some(3)) | (Some(3), Some(2)) = (first.dimensions, second.dimensions) {
+        let flat = if first.dimensions == Some(2) { &args.a } else { &args.b };
+        let solid = if first.dimensions == Some(2) { &args.b } else { &args.a };
+        out.note(&format!(
+            "warning: {} is in 2D and {} in 3D; poses of the plane are compared as at height 0",
+            flat.display(),
+            solid.display()
+        ));
+    }
+    let (a, b) = (first.trajectory, second.trajectory);
     let (reference, estimate) = matched(&a, &b, args.max_diff);
     if reference.is_empty() {
         let (a, b) = (args.a.display(), args.b.display());

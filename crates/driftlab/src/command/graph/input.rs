@@ -58,19 +58,27 @@ pub(super) fn any(path: &Path, out: &Out) -> Result<Input, Failure> {
     Ok(Input::Graph(graph(path, out)?.read))
 }
 
-/// Every pose with its time; ids count as seconds, poses of the plane lie at height 0.
-pub(super) fn poses(path: &Path, out: &Out) -> Result<Trajectory, Failure> {
-    let read = match any(path, out)? {
-        Input::Trajectory(trajectory) => trajectory,
-        Input::Graph(file) => trajectory_of(&file.graph),
+/// Poses of a graph or a trajectory.
+pub(super) struct Poses {
+    /// Every pose with its time; ids count as seconds, poses of the plane lie at height 0.
+    pub trajectory: Trajectory,
+    /// Of the graph that they come from; a trajectory does not tell.
+    pub dimensions: Option<usize>,
+}
+
+/// Every pose of a file, of which there must be one.
+pub(super) fn poses(path: &Path, out: &Out) -> Result<Poses, Failure> {
+    let (trajectory, dimensions) = match any(path, out)? {
+        Input::Trajectory(trajectory) => (trajectory, None),
+        Input::Graph(file) => (trajectory_of(&file.graph), Some(file.graph.dimensions())),
     };
-    if read.poses.is_empty() {
+    if trajectory.poses.is_empty() {
         return Err(Failure::Input(anyhow!(
             "{}: found edges only, expected poses; `driftlab graph optimize` computes them",
             path.display()
         )));
     }
-    Ok(read)
+    Ok(Poses { trajectory, dimensions })
 }
 
 /// The start values of a graph as a trajectory, by their ids.

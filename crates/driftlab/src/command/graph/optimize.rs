@@ -6,6 +6,7 @@ use std::time::Instant;
 use anyhow::anyhow;
 use formats::pose_graph::AnyGraph;
 use instrument::{DrawnPose, InstrumentError, OptimisationOptions, OptimisationRecording};
+use pose::nalgebra::Vector3;
 use pose::{Se2, Se3};
 use posegraph::factors::chi2;
 use posegraph::synchronize::{Rigid, SynchronizeOptions};
@@ -171,27 +172,44 @@ fn certified<P: Rigid<D>, const D: usize>(
     let found = certify(graph, &solution.poses, &SynchronizeOptions::default());
     let secs = began.elapsed().as_secs_f64();
     let verdict = found.verdict.name();
+    let gap_relative = found.gap / found.sesync_cost;
+    let (apart_m, apart_rad) = apart(&found.poses, &solution.poses);
     let json = json!({
         "verdict": verdict,
         "of": "SE-Sync's cost at its own solution, not chi2",
         "eigenvalue": found.smallest_eigenvalue,
         "precision": found.precision,
         "gap": found.gap,
+        "gap_relative": gap_relative,
         "sesync_cost": found.sesync_cost,
         "rank": found.rank,
+        "poses_apart_m": apart_m,
+        "poses_apart_rad": apart_rad,
         "reason": found.reason,
         "secs": secs,
     });
     let text = format!(
-        "{verdict}: SE-Sync's cost {:.9} (another cost than chi2), gap {}, smallest eigenvalue {} to \
-         within {}; {}",
+        "{verdict}: SE-Sync's cost {:.9} (another cost than chi2), of poses up to {} m and {} rad from \
+         those of the lowest chi2, which are what is written; gap {} ({} of the cost), smallest \
+         eigenvalue {} to within {}; {}",
         found.sesync_cost,
+        shown(apart_m),
+        shown(apart_rad),
         shown(found.gap),
+        shown(gap_relative),
         shown(found.smallest_eigenvalue),
         shown(found.precision),
         found.reason
     );
     Certified { json, text }
+}
+
+/// The farthest that two poses of a vertex lie and are turned apart, metres and radians.
+fn apart<P: Rigid<D>, const D: usize>(a: &[P], b: &[P]) -> (f64, f64) {
+    a.iter().zip(b).fold((0.0, 0.0), |(farthest, most): (f64, f64), (a, b)| {
+        let at = [a, b].map(|pose| Vector3::from(pose.columns()[P::DIM]));
+        (farthest.max((at[0] - at[1]).norm()), most.max(P::turn_between(a, b).norm()))
+    })
 }
 
 fn record<'a, P: Dimension<D>, const D: usize>(

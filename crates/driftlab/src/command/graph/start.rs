@@ -1,6 +1,6 @@
 //! Where an optimisation starts, and the optimisation itself.
 
-use posegraph::initial::{Origin, chordal, given, odometry, spanning_tree};
+use posegraph::initial::{Origin, asked_start_by, chordal, given, odometry, spanning_tree};
 use posegraph::synchronize::Rigid;
 use posegraph::{
     FactorGraph, OptimizerEvent, Options, Robust, Solution, Solver, default_start,
@@ -39,9 +39,10 @@ pub(super) struct Doubts {
 
 /// Optimises from the start that was asked for, else from the best that can be computed.
 ///
-/// The latter is tried out with Gauss-Newton; where that is the solver, its solution is taken, and
-/// the time of that trial is that of the optimisation. A robust method starts from odometry where
-/// no start is asked for.
+/// With Gauss-Newton starts are tried out, and the solution of the one that is chosen is taken; the time
+/// of that trial is that of the optimisation. One that is computed from few of the edges is a wish: where
+/// its solution cannot be believed, others are tried too. A robust method starts from odometry where no
+/// start is asked for.
 pub(super) fn solve<P: Rigid<D>, const D: usize>(
     graph: &FactorGraph<P, D>,
     init: Option<Init>,
@@ -51,9 +52,12 @@ pub(super) fn solve<P: Rigid<D>, const D: usize>(
 ) -> Solved<P> {
     // Every other start believes all closures alike.
     let doubting = robust != Robust::None;
+    let tried_out = !doubting && options.solver == Solver::GaussNewton;
     let clock = Stopwatch::start();
     let (poses, init, trials) = match init.or(doubting.then_some(Init::Odometry)) {
-        None if options.solver == Solver::GaussNewton => return try_out(graph, options, probe),
+        None | Some(Init::Odometry | Init::SpanningTree) if tried_out => {
+            return try_out(graph, init, options, probe);
+        }
         None => {
             let start = default_start(graph, options);
             (start.poses, name(start.origin), trials(&start.trials))
@@ -80,15 +84,16 @@ pub(super) fn solve<P: Rigid<D>, const D: usize>(
     Solved { solution, init, trials, init_time, optimize_time: clock.spent(), doubts }
 }
 
-/// The default start, and what Gauss-Newton made of it.
+/// The start that is found by trying, and what Gauss-Newton made of it.
 fn try_out<P: Rigid<D>, const D: usize>(
     graph: &FactorGraph<P, D>,
+    init: Option<Init>,
     options: &Options,
     probe: &mut impl for<'a> Probe<OptimizerEvent<'a, P>>,
 ) -> Solved<P> {
     let clock = Stopwatch::start();
     let mut times = Vec::new();
-    let mut start = default_start_by(graph, options, |poses, options| {
+    let run = |poses: &[P], options: &Options| {
         let clock = Stopwatch::start();
         let solution = if times.is_empty() {
             optimize_with(graph, poses, options, probe)
@@ -97,7 +102,14 @@ fn try_out<P: Rigid<D>, const D: usize>(
         };
         times.push(clock.spent());
         solution
-    });
+    };
+    let mut start = match init {
+        Some(Init::SpanningTree) => {
+            asked_start_by(graph, Origin::SpanningTree, spanning_tree(graph), options, run)
+        }
+        Some(_) => asked_start_by(graph, Origin::Odometry, odometry(graph), options, run),
+        None => default_start_by(graph, options, run),
+    };
     let whole = clock.spent();
     let chosen = start.trials.iter().position(|trial| trial.origin == start.origin);
     let chosen = chosen.unwrap_or(0);
@@ -120,6 +132,8 @@ fn name(origin: Origin) -> &'static str {
     match origin {
         Origin::SpanningTree => "spanning-tree",
         Origin::SurestTree => "surest-tree",
+        Origin::LoosenedTree => "loosened-tree",
+        Origin::LoosenedOdometry => "loosened-odometry",
         other => other.name(),
     }
 }
