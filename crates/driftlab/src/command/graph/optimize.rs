@@ -172,7 +172,8 @@ fn certified<P: Rigid<D>, const D: usize>(
     let found = certify(graph, &solution.poses, &SynchronizeOptions::default());
     let secs = began.elapsed().as_secs_f64();
     let verdict = found.verdict.name();
-    let gap_relative = found.gap / found.sesync_cost;
+    // Of a cost that is nothing but rounding there are no shares.
+    let gap_relative = Some(found.gap / found.sesync_cost).filter(|share| *share <= 1.0);
     let (apart_m, apart_rad) = apart(&found.poses, &solution.poses);
     let json = json!({
         "verdict": verdict,
@@ -190,13 +191,13 @@ fn certified<P: Rigid<D>, const D: usize>(
     });
     let text = format!(
         "{verdict}: SE-Sync's cost {:.9} (another cost than chi2), of poses up to {} m and {} rad from \
-         those of the lowest chi2, which are what is written; gap {} ({} of the cost), smallest \
-         eigenvalue {} to within {}; {}",
+         those of the lowest chi2, which are what is written; gap {}{}, smallest eigenvalue {} to \
+         within {}; {}",
         found.sesync_cost,
         shown(apart_m),
         shown(apart_rad),
         shown(found.gap),
-        shown(gap_relative),
+        gap_relative.map_or(String::new(), |share| format!(" ({} of the cost)", shown(share))),
         shown(found.smallest_eigenvalue),
         shown(found.precision),
         found.reason
