@@ -181,7 +181,7 @@ fn climb<P: Rigid<D>, const D: usize>(
     if origin != Origin::Chordal {
         try_from(Origin::Chordal, chordal(graph), &mut start, &mut better);
         let lowest = better.as_ref().map_or(&start.solution, |better| &better.solution);
-        if suffices(&judge(graph, lowest)) && lowest.report.termination.is_converged() {
+        if judge(graph, lowest).is_believed() {
             return start.with(better);
         }
     }
