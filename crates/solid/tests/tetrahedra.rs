@@ -151,6 +151,61 @@ fn schoenhardts_prism_takes_a_point_inside() {
     assert!(found.steiner_points >= 1, "none can do without");
 }
 
+/// A thin wedge along x whose edge runs from `a` to `b`, and whose back is far away at height `z`.
+fn wedge(a: Point3, b: Point3, aside: solid::Vector3, z: f64) -> Polyhedron {
+    let back = |at: Point3, by: f64| {
+        let moved = at + aside * by;
+        p(moved.x, moved.y, z)
+    };
+    let vertices = vec![a, b, back(a, -1.0), back(b, -1.0), back(b, 1.0), back(a, 1.0)];
+    let faces: [[u32; 3]; 8] =
+        [[0, 2, 5], [1, 4, 3], [0, 3, 2], [0, 1, 3], [0, 5, 4], [0, 4, 1], [2, 3, 4], [2, 4, 5]];
+    let mesh = of(vertices.clone(), faces.to_vec());
+    if mesh.volume_m3() > 0.0 {
+        return mesh;
+    }
+    of(vertices, faces.iter().map(|&[a, b, c]| [a, c, b]).collect())
+}
+
+/// A block with wedges cut out from below and, across them, from above, whose edges lie on two saddles
+/// that are near each other: between them any convex part is small.
+fn chazelle(notches: u32) -> Polyhedron {
+    let size = f64::from(notches) + 1.0;
+    let (far, thin, gap) = (size * size + 2.0, 0.05, 0.1);
+    let block = Polyhedron::cuboid(&p(0.0, 0.0, -far), &p(size, size, far), Label::Obstacle);
+    let mut mesh = block;
+    for i in 1..=notches {
+        let at = f64::from(i);
+        let (low, high) = (-0.5, size + 0.5);
+        let from_below = wedge(
+            p(low, at, low * at),
+            p(high, at, high * at),
+            solid::Vector3::new(0.0, thin, 0.0),
+            -far - 1.0,
+        );
+        let from_above = wedge(
+            p(at, low, low * at + gap),
+            p(at, high, high * at + gap),
+            solid::Vector3::new(thin, 0.0, 0.0),
+            far + 1.0,
+        );
+        for cut in [from_below, from_above] {
+            mesh = boolean(&mesh, &cut, Operation::Difference, &Options::default())
+                .expect("both are valid");
+        }
+    }
+    solid::mesh::weld(&mesh).mesh
+}
+
+#[test]
+fn chazelles_polyhedron() {
+    for notches in [2, 3, 4] {
+        let mesh = chazelle(notches);
+        assert!(solid::check(&mesh).is_valid());
+        assert_laws(&mesh, &tetrahedralize(&mesh).expect("it is valid"));
+    }
+}
+
 #[test]
 fn shells_cavities_and_touching_parts() {
     let outer = cube(0.0, 4.0);
