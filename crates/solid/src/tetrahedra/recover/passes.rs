@@ -11,7 +11,7 @@ use crate::tetrahedra::mesh::NONE;
 /// How often constraints are divided, all stuck ones once each.
 const MOST_ROUNDS: usize = 60;
 /// How often in a row more may be stuck than before.
-const MOST_GROWTH: usize = 4;
+const MOST_GROWTH: usize = 2;
 /// A sweep is repeated where it brought in more than one of so many.
 const WORTH_IT: usize = 8;
 
