@@ -89,6 +89,7 @@ fn report(dir: &Path, outcome: &Outcome, out: &Out) -> Result<(), Failure> {
         "believed complete",
         "really complete",
         "coverage",
+        "cells seen",
         "distance m",
         "d_exp m",
         "steps",
@@ -107,6 +108,11 @@ fn report(dir: &Path, outcome: &Outcome, out: &Out) -> Result<(), Failure> {
                 yes(map.believed_complete),
                 yes(map.coverage == 1.0),
                 format!("{:.4}", map.coverage),
+                format!(
+                    "{:.0} of {}",
+                    map.coverage * map.cells_reachable as f64,
+                    map.cells_reachable
+                ),
                 format!("{:.1}", map.distance_m),
                 map.d_exp_m.map_or_else(|| "-".to_owned(), |d_exp_m| format!("{d_exp_m:.1}")),
                 map.steps.to_string(),
