@@ -9,6 +9,9 @@ use super::{Cause, Certainty, Closing, ConsolidationEvent, RelativeMap, VolumeSt
 use crate::MapProbe;
 use crate::volume::LocalVolume;
 
+/// A way between a pair that is so many times as long as the shortest is as good.
+const NEARLY_SHORTEST: f64 = 1.2;
+
 /// Memory that comparisons reuse.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Work {
@@ -138,10 +141,30 @@ impl RelativeMap {
                     spans_given_up(&state, &other.given_up, &at_from_against, &mut spans);
                 }
             }
-            self.close(&mut state, target, source, cause, &at_from_against, &spans, probe);
+            let closes = |(edge, span): &(usize, Interval)| {
+                state.ledgers[*edge].open().any(|open| open.overlap(span).is_some())
+            };
+            if spans.iter().any(closes) && self.is_shortest_between(target, source) {
+                self.close(&mut state, target, source, cause, &at_from_against, &spans, probe);
+            }
             self.work.spans = spans;
         }
         self.volumes[at] = Some(state);
+    }
+
+    /// Whether no way between two rows is clearly shorter than the one through the scope at hand.
+    ///
+    /// Where both are recognised from a new vertex that is off the way between them, their poses by way
+    /// of it are worse than those that they were held against each other with.
+    fn is_shortest_between(&mut self, target: usize, source: usize) -> bool {
+        let rows = self.scope.placed();
+        if target == 0 || source == 0 {
+            return true;
+        }
+        let (a, b) = (rows[target], rows[source]);
+        let limit_m = (a.distance_m + b.distance_m) / NEARLY_SHORTEST;
+        let walked = if self.scope_is_full { &self.full } else { &self.skeleton };
+        self.scratch.distance_within(walked, a.vertex, b.vertex, limit_m).is_none()
     }
 
     /// Writes stretches into the ledgers of `state`, remembers the path, and tells.
