@@ -159,6 +159,12 @@ pub trait ExplorationMap {
     /// The way to the nearest frontier, or `None` if none is left that can be reached.
     fn route(&mut self, standing: &Standing, clearance_m: f64) -> Option<Route>;
 
+    /// Nothing counts any more: a map that has doubts opens again what it is least sure of. Returns
+    /// whether any frontier counts now; false, sooner or later, for good.
+    fn look_again(&mut self, _probe: &mut dyn MapProbe) -> bool {
+        false
+    }
+
     /// Whether its frontier belongs to vertices, so that [`route_to`](Self::route_to) can leave some out.
     fn has_frontier_by_vertex(&self) -> bool {
         false

@@ -77,6 +77,10 @@ pub struct RelativeMap {
     /// the paper does.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub certainty_sigmas: f64,
+    /// The same for the last look: when nothing is left, what is less sure than this opens again, once,
+    /// and the robot goes on until nothing is left. No more than `certainty_sigmas`: no last look.
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub last_look_sigmas: f64,
     /// Take volumes that add nothing out of later comparisons; no frontier changes by it.
     pub retire: bool,
     /// When two neighbouring hits belong to different things.
@@ -108,6 +112,7 @@ impl Default for RelativeMap {
             wall_closing_m: 0.3,
             sliver_m: 0.4,
             certainty_sigmas: 0.0,
+            last_look_sigmas: 1.0,
             retire: true,
             occlusion: Occlusion::Range,
             insert_occlusion_vertex: false,

@@ -99,14 +99,15 @@ impl From<&Metrics> for CoverageParams {
 impl Config {
     /// The parameters of the relative map, if it is built.
     ///
-    /// Where certainty is asked for, the robot knows how noisy its wheels are.
+    /// Where certainty is asked for, if only at the last look, the robot knows how noisy its wheels are.
     pub fn relative_params(&self) -> Option<RelativeParams> {
         let map = self.map.relative.as_ref()?;
         let occlusion = match map.occlusion {
             Occlusion::Range => OcclusionRule::Range,
             Occlusion::ForwardSigned => OcclusionRule::ForwardSigned,
         };
-        let known = self.odometry.scale * f64::from(u8::from(map.certainty_sigmas > 0.0));
+        let asked = map.certainty_sigmas > 0.0 || map.last_look_sigmas > 0.0;
+        let known = self.odometry.scale * f64::from(u8::from(asked));
         Some(RelativeParams {
             volume: VolumeParams {
                 occlusion_gap_m: map.occlusion_gap_m,
@@ -126,6 +127,7 @@ impl Config {
                 sigma_translation: known * self.odometry.sigma_translation,
                 sigma_rotation_rad: known * self.odometry.sigma_rotation.to_radians(),
             },
+            last_look_sigmas: map.last_look_sigmas,
             retire: map.retire,
             idle_scans: RelativeParams::default().idle_scans,
         })
@@ -308,7 +310,11 @@ mod tests {
     fn the_defaults_here_are_the_defaults_below() {
         assert_eq!(RobotParams::from(&Config::default()), RobotParams::default());
         assert_eq!(CoverageParams::from(&Metrics::default()), CoverageParams::default());
-        assert_eq!(with_relative(0.0).relative_params(), Some(RelativeParams::default()));
+        let trusting = RelativeMap { last_look_sigmas: 0.0, ..RelativeMap::default() };
+        let plain = RelativeParams { last_look_sigmas: 0.0, ..RelativeParams::default() };
+        assert_eq!(with_relative(trusting).relative_params(), Some(plain));
+        let looks = RelativeMap::default().last_look_sigmas;
+        assert_eq!(looks, RelativeParams::default().last_look_sigmas);
         assert_eq!(GridParams::from(&GridMap::default()), GridParams::default());
         let mut config = Config::default();
         config.map.grid_corrected = Some(GridCorrectedMap::default());
@@ -329,22 +335,26 @@ mod tests {
         assert_eq!(CavesParams::from(&CavesWorld::default()), CavesParams::default());
     }
 
-    fn with_relative(certainty_sigmas: f64) -> Config {
+    fn with_relative(map: RelativeMap) -> Config {
         let mut config = Config::default();
         config.odometry.scale = 0.5;
-        config.map.relative = Some(RelativeMap { certainty_sigmas, ..RelativeMap::default() });
+        config.map.relative = Some(map);
         config
     }
 
     #[test]
     fn certainty_knows_the_noise_of_the_wheels() {
-        let certainty = with_relative(2.0).relative_params().map(|params| params.certainty);
-        let expected = Certainty {
-            sigmas: 2.0,
-            sigma_translation: 0.05,
-            sigma_rotation_rad: 2.5_f64.to_radians(),
-        };
-        assert_eq!(certainty, Some(expected));
+        // Known for the last look as well, where none is asked for before.
+        for sigmas in [0.0, 2.0] {
+            let map = RelativeMap { certainty_sigmas: sigmas, ..RelativeMap::default() };
+            let certainty = with_relative(map).relative_params().map(|params| params.certainty);
+            let expected = Certainty {
+                sigmas,
+                sigma_translation: 0.05,
+                sigma_rotation_rad: 2.5_f64.to_radians(),
+            };
+            assert_eq!(certainty, Some(expected));
+        }
     }
 
     #[test]

@@ -227,6 +227,10 @@ impl ExplorationMap for Side {
         self.timed(|map| map.route(standing, clearance_m))
     }
 
+    fn look_again(&mut self, probe: &mut dyn MapProbe) -> bool {
+        self.timed(|map| map.look_again(probe))
+    }
+
     fn has_frontier_by_vertex(&self) -> bool {
         self.inner.has_frontier_by_vertex()
     }

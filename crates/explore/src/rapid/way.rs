@@ -19,6 +19,11 @@ impl Explorer {
         self.change_state(State::Deliberate, probe);
         let least_m = params.clearances_m.first().copied().unwrap_or(0.0);
         let Some(route) = self.route_now(least_m) else {
+            // Before it believes so: does the map itself?
+            if self.maps[0].look_again(&mut *probe) {
+                self.act_rapid(robot, probe);
+                return;
+            }
             self.finish(Ending::Complete, probe);
             return;
         };

@@ -119,6 +119,10 @@ impl Inner {
                         happened,
                         format_args!("{length_m:.3} m of {volume} {key:?}: {by} was replaced"),
                     ),
+                    ReopenCause::LastLook => tell(
+                        happened,
+                        format_args!("{length_m:.3} m of {volume} {key:?}: the last look"),
+                    ),
                 }
             }
             ConsolidationEvent::Retired { volume } => {

@@ -26,6 +26,8 @@ pub enum ReopenCause {
     EdgeWithdrawn(EdgeId),
     /// The volume that closed it got more rays, and has to close it anew.
     VolumeReplaced(VertexId),
+    /// All was closed that counted: the last look asks for more certainty.
+    LastLook,
 }
 
 /// Steps of frontier consolidation (\[ISRR19\] 4.3).

@@ -206,6 +206,10 @@ impl ExplorationMap for RelativeMap {
         self.way_to_frontier(standing, &|_| true)
     }
 
+    fn look_again(&mut self, probe: &mut dyn MapProbe) -> bool {
+        self.take_last_look(probe)
+    }
+
     fn has_frontier_by_vertex(&self) -> bool {
         true
     }

@@ -17,10 +17,12 @@
 //!    from another place (`vantage`); and a person's: why is this left, who removed that (`query`).
 //! 9. Frontier that cannot be reached from its vertex is given up there, and the volume closes
 //!    none of others any more (`ask`): what it sees has to be looked at from elsewhere.
+//! 10. Before the robot believes that nothing is left, what was closed over unsure placement opens
+//!     again, once (`last_look`).
 //!
 //! Geometry never changes; only ledgers do, and a part that is closed stays closed unless a place
 //! edge on the path that closed it is withdrawn, or the volume that closed it is changed by another
-//! scan, or falls silent.
+//! scan, or falls silent, or the last look doubts it.
 
 mod ask;
 mod book;
@@ -28,6 +30,7 @@ mod chains;
 mod events;
 mod incremental;
 mod insert;
+mod last_look;
 mod map;
 mod pair;
 mod params;

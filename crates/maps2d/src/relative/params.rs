@@ -25,6 +25,10 @@ pub struct RelativeParams {
     pub sliver_m: f64,
     /// How sure placement has to be before frontier counts as inside another volume.
     pub certainty: Certainty,
+    /// The `sigmas` of the last look, which the map offers once, when no frontier counts any more: what
+    /// was closed and is less sure than that opens again. No more than those of `certainty`, or no noise
+    /// there: no last look.
+    pub last_look_sigmas: f64,
     /// Whether volumes that add nothing are taken out of later comparisons.
     pub retire: bool,
     /// A volume without frontier of its own that counts is taken out after it was of no use to so
@@ -58,6 +62,7 @@ impl Default for RelativeParams {
             wall_closing_m: 0.3,
             sliver_m: 0.4,
             certainty: Certainty::default(),
+            last_look_sigmas: 1.0,
             retire: true,
             idle_scans: 40,
         }

@@ -15,6 +15,7 @@ mod polygons;
 mod retirement;
 mod room;
 mod told;
+mod trust;
 mod volume;
 mod withdrawal;
 
