@@ -9,7 +9,6 @@ use maps3d::image::PrepareOptions;
 use maps3d::reduce::{HoleMethod, InverseDepth, Method, ReduceOptions, Stop};
 use maps3d::triangulate::Occlusion;
 use maps3d::{Maps3dError, ViewOptions};
-use sensing::Camera;
 
 use super::super::failure::Failure;
 use super::super::graph::numbers::shown;
