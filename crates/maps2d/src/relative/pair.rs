@@ -158,7 +158,10 @@ impl RelativeMap {
     /// of it are worse than those that they were held against each other with.
     fn is_shortest_between(&mut self, target: usize, source: usize) -> bool {
         let rows = self.scope.placed();
-        if target == 0 || source == 0 {
+        // Where more is asked of placement than at a last look, that decides: the longer way may have
+        // less odometry, and be the surer one.
+        let decides = self.params.certainty.sigmas > self.params.last_look_sigmas;
+        if target == 0 || source == 0 || decides {
             return true;
         }
         let (a, b) = (rows[target], rows[source]);
