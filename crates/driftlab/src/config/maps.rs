@@ -78,7 +78,8 @@ pub struct RelativeMap {
     #[schemars(range(min = 0.0, max = 1e6))]
     pub certainty_sigmas: f64,
     /// The same for the last look: when nothing is left, what is less sure than this opens again, once,
-    /// and the robot goes on until nothing is left. No more than `certainty_sigmas`: no last look.
+    /// and the robot goes on until nothing is left. No more than `certainty_sigmas`: no last look; and less:
+    /// polygons are compared along longer ways than the shortest between them, too.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub last_look_sigmas: f64,
     /// Take volumes that add nothing out of later comparisons; no frontier changes by it.

@@ -14,7 +14,8 @@ use super::area::Area;
 use super::rings::{boxes_meet, crosses, next, reversed, twice_area_m2, winding};
 use super::unite::{Crossing, United, unite};
 
-/// Unites rings whose edges cross inside the area, pair by pair; a pair that cannot be united stays. Returns where boundaries went over from one to the other.
+/// Unites rings whose edges cross inside the area, pair by pair; a pair that cannot be united stays.
+/// Returns where boundaries went over from one to the other.
 ///
 /// At most as many unions as there are rings. Cost: the edges in the area, sorted, for each.
 pub(super) fn merge_sheets(

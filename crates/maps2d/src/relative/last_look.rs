@@ -53,7 +53,7 @@ impl RelativeMap {
             self.compare_with_scope(vertex, probe);
         }
         for (&vertex, before) in vertices.iter().zip(&before) {
-            self.close_scraps(vertex, before);
+            self.close_scraps(vertex, before, probe);
         }
         self.hold_slivers(probe);
         // No way starts at a vertex that is retired, so not the one that the robot stands on.
@@ -65,19 +65,42 @@ impl RelativeMap {
     }
 
     /// Closes what opened in scraps as it was before.
-    fn close_scraps(&mut self, vertex: VertexId, before: &[EdgeLedger<Closing>]) {
+    fn close_scraps(
+        &mut self,
+        vertex: VertexId,
+        before: &[EdgeLedger<Closing>],
+        probe: &mut dyn MapProbe,
+    ) {
+        let on = probe::Probe::<ConsolidationEvent<'_>>::on(probe);
         let least_m = SCRAP_SLIVERS * self.params.sliver_m;
         let Some(state) = self.volumes[vertex].as_deref_mut() else { return };
         let scraps = state.chains.iter().filter(|chain| chain.length_m < least_m);
         let mut newly: Vec<Interval> = Vec::new();
+        let mut has_closed = false;
         for part in scraps.flat_map(|chain| &chain.parts) {
             for closed in before[part.edge].closed() {
                 if let Some(span) = closed.span.overlap(&part.span) {
+                    newly.clear();
                     state.ledgers[part.edge].close(span, &closed.reason, &mut newly);
+                    has_closed |= !newly.is_empty();
+                    let Closing { cause, by, path, .. } = closed.reason;
+                    for &span in newly.iter().filter(|_| on) {
+                        let edge = &state.volume.frontier[part.edge];
+                        let path = self.book.edges(path);
+                        let volume = vertex;
+                        probe.emit(ConsolidationEvent::Closed {
+                            volume,
+                            edge,
+                            span,
+                            cause,
+                            by,
+                            path,
+                        });
+                    }
                 }
             }
         }
-        if !newly.is_empty() {
+        if has_closed {
             self.remeasure(vertex);
         }
     }

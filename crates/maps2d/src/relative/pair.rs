@@ -144,7 +144,7 @@ impl RelativeMap {
             let closes = |(edge, span): &(usize, Interval)| {
                 state.ledgers[*edge].open().any(|open| open.overlap(span).is_some())
             };
-            if spans.iter().any(closes) && self.is_shortest_between(target, source) {
+            if spans.iter().any(closes) && self.way_may_decide(target, source) {
                 self.close(&mut state, target, source, cause, &at_from_against, &spans, probe);
             }
             self.work.spans = spans;
@@ -152,11 +152,12 @@ impl RelativeMap {
         self.volumes[at] = Some(state);
     }
 
-    /// Whether no way between two rows is clearly shorter than the one through the scope at hand.
+    /// Whether the way between two rows through the scope at hand may decide: no other is clearly shorter,
+    /// or more certainty is asked of it than at a last look.
     ///
     /// Where both are recognised from a new vertex that is off the way between them, their poses by way
     /// of it are worse than those that they were held against each other with.
-    fn is_shortest_between(&mut self, target: usize, source: usize) -> bool {
+    fn way_may_decide(&mut self, target: usize, source: usize) -> bool {
         let rows = self.scope.placed();
         // Where more is asked of placement than at a last look, that decides: the longer way may have
         // less odometry, and be the surer one.

@@ -27,7 +27,8 @@ pub struct RelativeParams {
     pub certainty: Certainty,
     /// The `sigmas` of the last look, which the map offers once, when no frontier counts any more: what
     /// was closed and is less sure than that opens again. No more than those of `certainty`, or no noise
-    /// there: no last look.
+    /// there: no last look. Fewer than those of `certainty`: pairs are compared along longer ways too, which
+    /// certainty then judges.
     pub last_look_sigmas: f64,
     /// Whether volumes that add nothing are taken out of later comparisons.
     pub retire: bool,
