@@ -58,6 +58,12 @@ impl<'de> Deserialize<'de> for Axes {
     }
 }
 
+/// Whether two values are the same; a whole number is, whether it has a point or not.
+fn is_same(a: &toml::Value, b: &toml::Value) -> bool {
+    let number = |value: &toml::Value| value.as_float().or(value.as_integer().map(|i| i as f64));
+    a == b || number(a).is_some_and(|a| number(b) == Some(a))
+}
+
 fn flatten(
     table: toml::Table,
     prefix: &str,
@@ -71,6 +77,12 @@ fn flatten(
                 return Err(format!("an empty list for `{path}`, expected at least one value"));
             }
             toml::Value::Array(values) => {
+                // Each run would be counted as often.
+                let is_known = |at: usize| values[..at].iter().any(|v| is_same(v, &values[at]));
+                if let Some(at) = (1..values.len()).find(|&at| is_known(at)) {
+                    let twice = &values[at];
+                    return Err(format!("{twice} twice for `{path}`, expected each value once"));
+                }
                 if axes.insert(path.clone(), values).is_some() {
                     return Err(format!("the axis `{path}` twice, expected each key once"));
                 }

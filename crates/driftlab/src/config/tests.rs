@@ -152,6 +152,7 @@ fn each_mistake_gets_one_message_at_its_place() {
     let no_list = with("[sweep.axes]\nodometry.scale = 1\n");
     let seed_axis = with("[sweep.axes]\nseed = [1, 2]\n");
     let no_value = with("[sweep]\naxes = { \"odometry.scale\" = [] }\n");
+    let twice = with("[sweep]\naxes = { \"odometry.scale\" = [1, 0.5, 1.0] }\n");
     let drive = with("[compare]\ndrive = \"grid\"\n");
     let both = with("[metrics]\ncell_m = 1\ngrid = [25, 20]\n");
     let no_rows = with("[metrics]\ngrid = [25, 0]\n");
@@ -178,6 +179,7 @@ fn each_mistake_gets_one_message_at_its_place() {
         (&no_seeds, &[]),
         (&no_list, &[]),
         (&no_value, &[]),
+        (&twice, &[]),
         (&seed_axis, &[]),
         (&drive, &[]),
         (&both, &[]),

@@ -155,7 +155,7 @@ pub(crate) fn accuracy(study: &Study) -> Option<TextTable> {
         TextTable::of_groups(study, &titles, |group| {
             let told = |name: &&str| {
                 let mean = group.mean(name);
-                mean.map_or_else(none, |m| format!("{:.3} ± {:.3}", m.mean, m.deviation))
+                mean.map_or_else(none, |mean| plus_minus(mean, 3))
             };
             names.iter().map(told).collect()
         })
@@ -207,9 +207,17 @@ fn interval(share: Option<Share>) -> String {
 fn spread(mean: Option<Mean>, runs: usize) -> String {
     match mean {
         None => none(),
-        Some(Mean { count, mean, deviation }) if count == runs => {
-            format!("{mean:.1} ± {deviation:.1}")
-        }
-        Some(Mean { count, mean, deviation }) => format!("{mean:.1} ± {deviation:.1} ({count})"),
+        Some(mean) if mean.count == runs => plus_minus(mean, 1),
+        Some(mean) => format!("{} ({})", plus_minus(mean, 1), mean.count),
+    }
+}
+
+/// Mean and deviation; one sample has none.
+fn plus_minus(mean: Mean, digits: usize) -> String {
+    let Mean { count, mean, deviation } = mean;
+    if count > 1 {
+        format!("{mean:.digits$} ± {deviation:.digits$}")
+    } else {
+        format!("{mean:.digits$}")
     }
 }
