@@ -268,6 +268,35 @@ fn a_certificate_says_how_wide_its_gap_is_and_of_which_poses() {
     assert!((0.0..0.01).contains(&number("poses_apart_rad")), "{certificate}");
 }
 
+/// A ring of ten poses that closes once, with start values that wind twice around.
+fn wound_ring() -> String {
+    let turn = std::f64::consts::TAU / 10.0;
+    let (mut x, mut y) = (0.0_f64, 0.0_f64);
+    let mut text = String::new();
+    for k in 0..10 {
+        let angle = 2.0 * turn * f64::from(k);
+        text += &format!("VERTEX_SE2 {k} {x} {y} {angle}\n");
+        (x, y) = (x + angle.cos(), y + angle.sin());
+    }
+    for k in 0..10 {
+        text += &format!("EDGE_SE2 {k} {} 1 0 {turn} 100 0 0 100 0 100\n", (k + 1) % 10);
+    }
+    text
+}
+
+#[test]
+fn a_solution_that_winds_once_too_often_is_not_certified() {
+    let desk = Desk::new();
+    desk.put("ring.g2o", &wound_ring());
+    let done = desk.json(&["optimize", "ring.g2o", "--init", "file", "--certify"]);
+    assert!(done["chi2"].as_f64().expect("a cost") > 1.0, "{done}");
+    assert_eq!(done["certificate"]["verdict"], "not_certified", "{done}");
+    assert!(done["certificate"]["lower_chi2"].as_f64().expect("a cost") < 1e-6, "{done}");
+    let right = desk.json(&["optimize", "ring.g2o", "--certify"]);
+    assert!(right["chi2"].as_f64().expect("a cost") < 1e-6, "{right}");
+    assert_eq!(right["certificate"]["verdict"], "globally_optimal", "{right}");
+}
+
 #[test]
 fn bad_input_gets_one_message_and_leaves_nothing() {
     let desk = Desk::new();

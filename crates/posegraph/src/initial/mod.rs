@@ -17,7 +17,8 @@ mod spanning_tree;
 pub use chordal::chordal;
 pub use components::Components;
 pub use default::{
-    Origin, Start, Trial, asked_start_by, default_start, default_start_by, default_start_with,
+    Doubt, Judgement, Origin, Start, Trial, asked_start_by, default_start, default_start_by,
+    default_start_with,
 };
 pub use odometry::odometry;
 pub use spanning_tree::{given, spanning_tree, surest_tree};

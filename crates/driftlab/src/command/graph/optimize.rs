@@ -12,7 +12,7 @@ use posegraph::factors::chi2;
 use posegraph::synchronize::{Rigid, SynchronizeOptions};
 use posegraph::{
     ErrorKind, FactorGraph, FactorGraph2, FactorGraph3, Options, Solution, Solver, Termination,
-    certify, sesync_cost,
+    Verdict, certify, sesync_cost,
 };
 use serde_json::{Value, json};
 
@@ -22,7 +22,7 @@ use super::args::{OptimizeArgs, SolverName};
 use super::input;
 use super::numbers::{listed, shown};
 use super::output::{self, Target};
-use super::start::{self, Solved};
+use super::start::{self, SAME_SHARE, Solved};
 use crate::stopwatch::Spent;
 
 pub(super) fn optimize(args: &OptimizeArgs, out: &Out) -> Result<(), Failure> {
@@ -132,7 +132,7 @@ fn solve<P: Dimension<D>, const D: usize>(
 
     let believed = believed(&graph, &solved);
     let believed = believed.as_ref().unwrap_or(&graph);
-    let certificate = args.certify.then(|| certified(believed, solution));
+    let certificate = args.certify.then(|| certified(believed, solution, &options));
     let mut done = tell(&graph, believed, &solved, certificate.as_ref(), args);
     if let Some(recording) = recording {
         recording.finish(&done.json).map_err(unrecorded)?;
@@ -158,6 +158,10 @@ fn believed<P: Dimension<D>, const D: usize>(
     Some(believed)
 }
 
+/// Poses that are turned apart by less are of one solution, radians: chi2 and SE-Sync's cost weigh
+/// rotations differently.
+const SAME_VALLEY_RAD: f64 = 0.05;
+
 /// The certificate as JSON, and for people.
 struct Certified {
     json: Value,
@@ -167,14 +171,29 @@ struct Certified {
 fn certified<P: Rigid<D>, const D: usize>(
     graph: &FactorGraph<P, D>,
     solution: &Solution<P>,
+    options: &Options,
 ) -> Certified {
     let began = Instant::now();
     let found = certify(graph, &solution.poses, &SynchronizeOptions::default());
     let secs = began.elapsed().as_secs_f64();
-    let verdict = found.verdict.name();
     // Of a cost that is nothing but rounding there are no shares.
     let gap_relative = Some(found.gap / found.sesync_cost).filter(|share| *share <= 1.0);
     let (apart_m, apart_rad) = apart(&found.poses, &solution.poses);
+    // What is certified may be another solution than the one that is written.
+    let lower = (apart_rad > SAME_VALLEY_RAD)
+        .then(|| posegraph::optimize(graph, &found.poses, options).report.chi2)
+        .filter(|chi2| *chi2 < solution.report.chi2 * (1.0 - SAME_SHARE));
+    let (verdict, reason) = match lower {
+        None => (found.verdict, found.reason),
+        Some(chi2) => (
+            Verdict::NotCertified,
+            format!(
+                "another solution passes, of chi2 {}: what is written is a local one",
+                shown(chi2)
+            ),
+        ),
+    };
+    let verdict = verdict.name();
     let json = json!({
         "verdict": verdict,
         "of": "SE-Sync's cost at its own solution, not chi2",
@@ -186,12 +205,13 @@ fn certified<P: Rigid<D>, const D: usize>(
         "rank": found.rank,
         "poses_apart_m": apart_m,
         "poses_apart_rad": apart_rad,
-        "reason": found.reason,
+        "lower_chi2": lower,
+        "reason": reason,
         "secs": secs,
     });
     let text = format!(
         "{verdict}: SE-Sync's cost {:.9} (another cost than chi2), of poses up to {} m and {} rad from \
-         those of the lowest chi2, which are what is written; gap {}{}, smallest eigenvalue {} to \
+         those that are written; gap {}{}, smallest eigenvalue {} to \
          within {}; {}",
         found.sesync_cost,
         shown(apart_m),
@@ -200,7 +220,7 @@ fn certified<P: Rigid<D>, const D: usize>(
         gap_relative.map_or(String::new(), |share| format!(" ({} of the cost)", shown(share))),
         shown(found.smallest_eigenvalue),
         shown(found.precision),
-        found.reason
+        reason
     );
     Certified { json, text }
 }

@@ -12,6 +12,9 @@ use serde_json::{Value, json};
 use super::args::Init;
 use crate::stopwatch::{Spent, Stopwatch};
 
+/// Costs that differ by less, as a share, are the same.
+pub(super) const SAME_SHARE: f64 = 1e-6;
+
 /// A solution, and how it came about.
 pub(super) struct Solved<P> {
     pub solution: Solution<P>,
@@ -54,12 +57,15 @@ pub(super) fn solve<P: Rigid<D>, const D: usize>(
     let doubting = robust != Robust::None;
     let tried_out = !doubting && options.solver == Solver::GaussNewton;
     let clock = Stopwatch::start();
+    // What choosing a start led to, where it led anywhere.
+    let mut reached = None;
     let (poses, init, trials) = match init.or(doubting.then_some(Init::Odometry)) {
         None | Some(Init::Odometry | Init::SpanningTree) if tried_out => {
             return try_out(graph, init, options, probe);
         }
         None => {
             let start = default_start(graph, options);
+            reached = Some((start.solution.report.chi2, start.solution.poses));
             (start.poses, name(start.origin), trials(&start.trials))
         }
         Some(Init::File) => (given(graph), "file", Value::Null),
@@ -79,7 +85,14 @@ pub(super) fn solve<P: Rigid<D>, const D: usize>(
         };
         (found.solution, Some(doubts))
     } else {
-        (optimize_with(graph, &poses, options, probe), None)
+        let mut found = optimize_with(graph, &poses, options, probe);
+        // Another solver may end in another valley: not in a higher one than is known.
+        if let Some((chi2, poses)) = reached
+            && found.report.chi2 > chi2 * (1.0 + SAME_SHARE)
+        {
+            found = optimize_with(graph, &poses, options, probe);
+        }
+        (found, None)
     };
     Solved { solution, init, trials, init_time, optimize_time: clock.spent(), doubts }
 }

@@ -66,10 +66,14 @@ impl Judgement {
 
     /// Whether noise explains a solution: there is no doubt, or `χ²` is about what noise leaves. Then
     /// errors around a loop may add up to much, and steps that still circle are in the right valley.
+    ///
+    /// With few degrees of freedom noise explains so much that this tells nothing: a solution that winds
+    /// around a loop once too often may have twice the cost of the right one and pass.
     pub(super) fn is_explained(&self) -> bool {
-        let spread = (2.0 / self.degrees_of_freedom.max(1) as f64).sqrt();
-        let plausible = CALIBRATED..=1.0 + DEVIATIONS * spread;
-        self.doubt.is_none() || plausible.contains(&self.chi2_per_degree)
+        let spread = DEVIATIONS * (2.0 / self.degrees_of_freedom.max(1) as f64).sqrt();
+        let tells = spread <= 1.0 - CALIBRATED;
+        let plausible = CALIBRATED..=1.0 + spread;
+        self.doubt.is_none() || tells && plausible.contains(&self.chi2_per_degree)
     }
 }
 
