@@ -130,47 +130,18 @@ impl Work {
 
     /// The spaces round `s` between two walls.
     fn sectors_between(&self, s: u32, star: &[u32], walls: [&Wall; 2]) -> Vec<Hole> {
-        let mut of = vec![usize::MAX; star.len()];
-        let mut sectors = Vec::new();
-        for first in 0..star.len() {
-            if of[first] != usize::MAX {
-                continue;
-            }
-            let id = sectors.len();
-            let mut sector = Hole::default();
-            let mut stack = vec![first];
-            of[first] = id;
-            while let Some(i) = stack.pop() {
-                let tet = self.mesh.tet(star[i]);
-                sector.own.push(star[i]);
-                for f in 0..4 {
-                    let corners = tet.face(f);
-                    if tet.v[f] == s {
-                        sector.far.push((corners, tet.n[f]));
-                        continue;
-                    }
-                    let at = corners.iter().position(|&v| v == s).unwrap_or(0);
-                    let (x, y) = (corners[(at + 1) % 3], corners[(at + 2) % 3]);
-                    let wall = walls.iter().find_map(|wall| Some((wall, wall.passes(x, y)?)));
-                    if let Some((wall, in_order)) = wall {
-                        for &[p, q, r] in &wall.whole {
-                            let seen = if in_order { [p, q, r] } else { [p, r, q] };
-                            if !sector.near.iter().any(|other| same_turn(*other, seen)) {
-                                sector.near.push(seen);
-                            }
-                        }
-                        continue;
-                    }
-                    if let Some(j) = star.iter().position(|&t| t == tet.n[f] >> 2)
-                        && of[j] == usize::MAX
-                    {
-                        of[j] = id;
-                        stack.push(j);
-                    }
+        self.spaces(s, star, |corners, sector| {
+            let at = corners.iter().position(|&v| v == s).unwrap_or(0);
+            let (x, y) = (corners[(at + 1) % 3], corners[(at + 2) % 3]);
+            let wall = walls.iter().find_map(|wall| Some((wall, wall.passes(x, y)?)));
+            let Some((wall, in_order)) = wall else { return false };
+            for &[p, q, r] in &wall.whole {
+                let seen = if in_order { [p, q, r] } else { [p, r, q] };
+                if !sector.near.iter().any(|other| same_turn(*other, seen)) {
+                    sector.near.push(seen);
                 }
             }
-            sectors.push(sector);
-        }
-        sectors
+            true
+        })
     }
 }

@@ -123,6 +123,24 @@ impl Work {
 
     /// The spaces round `s` between its facets.
     fn sectors(&self, s: u32, star: &[u32], split: &Split) -> Vec<Hole> {
+        self.spaces(s, star, |corners, sector| {
+            let [a, b, c] = corners;
+            let facet = self.must.facet(a, b, c);
+            if let Some(facet) = facet {
+                self.note_whole(facet, corners, split, sector);
+            }
+            facet.is_some()
+        })
+    }
+
+    /// The spaces round `s` between walls: `is_wall` says of a face at `s` whether it is of one, and notes
+    /// what stands in its place.
+    pub(super) fn spaces(
+        &self,
+        s: u32,
+        star: &[u32],
+        mut is_wall: impl FnMut([u32; 3], &mut Hole) -> bool,
+    ) -> Vec<Hole> {
         let mut of = vec![usize::MAX; star.len()];
         let mut sectors = Vec::new();
         for first in 0..star.len() {
@@ -142,9 +160,7 @@ impl Work {
                         sector.far.push((corners, tet.n[f]));
                         continue;
                     }
-                    let [a, b, c] = corners;
-                    if let Some(facet) = self.must.facet(a, b, c) {
-                        self.note_whole(facet, corners, split, &mut sector);
+                    if is_wall(corners, &mut sector) {
                         continue;
                     }
                     if let Some(j) = star.iter().position(|&t| t == tet.n[f] >> 2)
