@@ -3,11 +3,12 @@
 //!
 //! `cargo bench -p solid --bench booleans [VIEWS] [RUNS]`; runs alternate, the smallest counts.
 
+mod clock;
+
 use std::io::Write;
-use std::sync::OnceLock;
-use std::time::Instant;
 
 use boolmesh::prelude::{Manifold as Second, OpType, compute_boolean};
+use clock::secs;
 use manifold_rust::manifold::Manifold;
 use manifold_rust::types::{BooleanEngine, MeshGLP};
 use solid::boolean::{JITTER_M, Options, Provenance};
@@ -63,24 +64,6 @@ fn second(views: &[Polyhedron]) -> (f64, f64) {
     };
     let six = |f: usize| corner(3 * f).dot(&corner(3 * f + 1).cross(&corner(3 * f + 2)));
     ((0..map.hs.len() / 3).map(six).sum::<f64>() / 6.0, took)
-}
-
-/// Seconds of this thread on a processor, which a busy machine does not stretch; of the clock where
-/// the system does not tell.
-fn now() -> f64 {
-    static START: OnceLock<Instant> = OnceLock::new();
-    let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let nanos = told.and_then(|line| line.split_whitespace().next()?.parse::<f64>().ok());
-    nanos.map_or_else(
-        || START.get_or_init(Instant::now).elapsed().as_secs_f64(),
-        |nanos| nanos * 1e-9,
-    )
-}
-
-fn secs<T>(work: impl FnOnce() -> T) -> (T, f64) {
-    let start = now();
-    let done = work();
-    (done, now() - start)
 }
 
 fn main() {

@@ -4,34 +4,17 @@
 //! 5, 10, 20 and 50 views of each kind, which `--write` also keeps as OFF files for other programs, and
 //! Delaunay tetrahedra of random points. Seconds are those of the processor.
 
+mod clock;
+
 use std::fmt::Write as _;
 use std::io::Write;
-use std::sync::OnceLock;
-use std::time::Instant;
 
+use clock::secs;
 use solid::boolean::Options;
 use solid::mesh::weld;
 use solid::synthetic::{Kind, views};
 use solid::tetrahedra::delaunay;
 use solid::{Label, Point3, Polyhedron, check, tetrahedralize, unite};
-
-/// Seconds of this thread on a processor, which a busy machine does not stretch; of the clock where
-/// the system does not tell.
-fn now() -> f64 {
-    static START: OnceLock<Instant> = OnceLock::new();
-    let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
-    let nanos = told.and_then(|line| line.split_whitespace().next()?.parse::<f64>().ok());
-    nanos.map_or_else(
-        || START.get_or_init(Instant::now).elapsed().as_secs_f64(),
-        |nanos| nanos * 1e-9,
-    )
-}
-
-fn secs<T>(work: impl FnOnce() -> T) -> (T, f64) {
-    let start = now();
-    let done = work();
-    (done, now() - start)
-}
 
 fn say(line: &str) {
     writeln!(std::io::stdout(), "{line}").expect("stdout takes text");
