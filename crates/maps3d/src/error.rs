@@ -68,7 +68,7 @@ pub enum Maps3dError {
     /// Too many points of a cloud share one place.
     #[error(
         "{points} points of the cloud are at ({x}, {y}, {z}), at most {limit} may share a place; \
-         they can be taken as missing instead (--duplicates missing)"
+         they can be taken as missing instead"
     )]
     Duplicates {
         /// Points at the place that most share.
@@ -96,7 +96,7 @@ pub enum Maps3dError {
     /// The points of a cloud lie on no common camera's rays.
     #[error(
         "no pinhole camera fits the cloud: points lie {error_px:.2} pixels (95 %) from their rays, \
-         at most {limit_px} may be; give the camera (--camera), or undistort the cloud"
+         at most {limit_px} may be; give the camera, or undistort the cloud"
     )]
     NoCamera {
         /// The distance that 95 % of the points keep, pixels; NaN where too few points are valid.

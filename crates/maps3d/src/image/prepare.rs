@@ -94,8 +94,8 @@ impl PrepareOptions {
 /// Crops the image, tells invalid values and places missing data at the far distance.
 ///
 /// Cropping by n leaves `columns - 2 n` columns; the thesis kept one more of each (541 of 640 at
-/// 50). Missing is what is no reading ([`PrepareOptions::measures`]). A missing pixel gets the depth `far_m` on its own ray (eq. 5.1). Readings beyond
-/// `far_m` stay where they are. O(pixels).
+/// 50). Missing is what is no reading ([`PrepareOptions::measures`]). A missing pixel gets the depth
+/// `far_m` on its own ray (eq. 5.1). Readings beyond `far_m` stay where they are. O(pixels).
 ///
 /// The rays of a single row or column lie in one plane and enclose nothing. What is one pixel wide is
 /// taken over the whole width of its pixels: two rows (columns) of the same depths, half a pixel to each

@@ -5,6 +5,7 @@ use std::time::Instant;
 
 use anyhow::anyhow;
 use formats::depth_file::{self, DepthFile, DepthFileOptions};
+use maps3d::Maps3dError;
 use maps3d::image::{CloudOptions, Duplicates, PrepareOptions, depth_image_of};
 use sensing::{Camera, DepthImage};
 
@@ -105,7 +106,13 @@ pub(super) fn depth(path: &Path, args: &DepthFileArgs, out: &Out) -> Result<Dept
             };
             let options = CloudOptions { duplicates, ..CloudOptions::default() };
             let image = depth_image_of(cloud.columns, &cloud.points_in_sensor, camera, &options)
-                .map_err(|e| input(&e))?;
+                .map_err(|error| match error {
+                    Maps3dError::Duplicates { .. } => {
+                        input(&format!("{error} (--duplicates missing)"))
+                    }
+                    Maps3dError::NoCamera { .. } => input(&format!("{error} (--camera)")),
+                    other => input(&other),
+                })?;
             if args.camera.is_none() {
                 let Camera { fx, fy, cx, cy } = image.camera;
                 out.detail(&format!("the camera of the cloud: {fx:.2},{fy:.2},{cx:.2},{cy:.2}"));
