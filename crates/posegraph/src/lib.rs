@@ -24,7 +24,8 @@ pub use incremental::{Incremental, IncrementalOptions, Update};
 pub use initial::{Start, default_start, default_start_by, default_start_with};
 pub use marginals::{JointCovariance, Marginals};
 pub use placement::{
-    Edge, EdgeKind, Link, Placed, Placement, PoseGraph, Scope, ScopeScratch, Skeleton, Via,
+    Edge, EdgeKind, Link, Placed, Placement, PoseGraph, RelativePose, Scope, ScopeScratch,
+    Skeleton, Via,
 };
 pub use robust::{Robust, RobustSolution, optimize_robust};
 pub use solvers::{

@@ -7,6 +7,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use probe::VertexId;
 
+use super::RelativePose;
 use crate::{Link, ScopeScratch, Skeleton};
 
 /// Ways longer than the horizon are dropped where another way is at most this many times as long.
@@ -15,7 +16,7 @@ const DETOUR: f64 = 1.5;
 /// Over a retired vertex a new edge is led on to this many vertices.
 const WAYS_OUT: usize = 4;
 
-impl Skeleton {
+impl<P: RelativePose> Skeleton<P> {
     /// Contracts a vertex: afterwards it has no links, and its nearest neighbour stands for it.
     ///
     /// Every pair of its neighbours whose shortest way led through it, and is no longer than the
@@ -80,13 +81,18 @@ impl Skeleton {
     }
 
     /// Joins a vertex that is not retired with the nearest around one that is and stays so.
-    pub(crate) fn join_retired(&mut self, from: VertexId, link: &Link, scratch: &mut ScopeScratch) {
+    pub(crate) fn join_retired(
+        &mut self,
+        from: VertexId,
+        link: &Link<P>,
+        scratch: &mut ScopeScratch,
+    ) {
         let ways = self.ways_out(link.to).iter().map(|way| link.then(way)).collect();
         self.join(from, ways, scratch);
     }
 
     /// Links a vertex with the ends of these ways where there is no other way, shortest first.
-    fn join(&mut self, from: VertexId, ways: Vec<Link>, scratch: &mut ScopeScratch) {
+    fn join(&mut self, from: VertexId, ways: Vec<Link<P>>, scratch: &mut ScopeScratch) {
         for way in ways.into_iter().filter(|way| way.to != from) {
             if !self.is_witnessed(from, way.to, way.length_m, scratch) {
                 self.replace(from, way);
@@ -122,7 +128,7 @@ impl Skeleton {
 
     /// The shortest ways from a retired vertex through retired vertices to those that are not,
     /// shortest first: a few, no longer than the horizon, and the shortest at least.
-    fn ways_out(&self, vertex: VertexId) -> Vec<Link> {
+    fn ways_out(&self, vertex: VertexId) -> Vec<Link<P>> {
         // For each vertex met: how far, and by which link of which retired vertex.
         let mut best: BTreeMap<VertexId, (f64, Option<(VertexId, usize)>)> = BTreeMap::new();
         // Bits of lengths that are not negative are ordered as the lengths are.
@@ -151,7 +157,7 @@ impl Skeleton {
             }
         }
         let way_to = |end: VertexId| {
-            let mut steps: Vec<&Link> = Vec::new();
+            let mut steps: Vec<&Link<P>> = Vec::new();
             let mut at = end;
             while let Some((before, i)) = best[&at].1 {
                 steps.push(&self.nodes[before].spare[i]);
@@ -163,7 +169,7 @@ impl Skeleton {
     }
 
     /// Adds a link and drops longer ones between the same two vertices.
-    fn replace(&mut self, from: VertexId, link: Link) {
+    fn replace(&mut self, from: VertexId, link: Link<P>) {
         let to = link.to;
         self.nodes[from].links.retain(|known| known.to != to);
         self.nodes[to].links.retain(|known| known.to != from);

@@ -3,6 +3,7 @@
 use pose::Se2;
 use probe::{EdgeId, IdVec, VertexId};
 
+use super::RelativePose;
 use crate::PoseGraphError;
 
 /// Where an edge comes from.
@@ -16,13 +17,13 @@ pub enum EdgeKind {
 
 /// A measured relative pose between two vertices.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Edge {
+pub struct Edge<P = Se2> {
     /// The vertex in whose frame the measurement is given.
     pub a: VertexId,
     /// The vertex that is measured.
     pub b: VertexId,
     /// Frame of `b` in the frame of `a`.
-    pub a_from_b: Se2,
+    pub a_from_b: P,
     /// Weight of the edge: the norm of the translation, metres (\[ISRR19\] 4.3).
     pub length_m: f64,
     /// Where the measurement comes from.
@@ -31,9 +32,9 @@ pub struct Edge {
     pub withdrawn: bool,
 }
 
-impl Edge {
+impl<P: RelativePose> Edge<P> {
     /// The other end of the edge, and its frame in the frame of `from`.
-    pub fn from_end(&self, from: VertexId) -> (VertexId, Se2) {
+    pub fn from_end(&self, from: VertexId) -> (VertexId, P) {
         if from == self.a { (self.b, self.a_from_b) } else { (self.a, self.a_from_b.inverse()) }
     }
 }
@@ -42,13 +43,19 @@ impl Edge {
 ///
 /// The graph knows ids and relative poses; what hangs on a vertex lives in the maps. Nothing is
 /// ever removed: a withdrawn place edge stays, marked.
-#[derive(Clone, Debug, Default)]
-pub struct PoseGraph {
-    edges: IdVec<EdgeId, Edge>,
+#[derive(Clone, Debug)]
+pub struct PoseGraph<P = Se2> {
+    edges: IdVec<EdgeId, Edge<P>>,
     edges_of: IdVec<VertexId, Vec<EdgeId>>,
 }
 
-impl PoseGraph {
+impl<P> Default for PoseGraph<P> {
+    fn default() -> Self {
+        Self { edges: IdVec::new(), edges_of: IdVec::new() }
+    }
+}
+
+impl<P: RelativePose> PoseGraph<P> {
     /// A graph without vertices.
     pub fn new() -> Self {
         Self::default()
@@ -67,7 +74,7 @@ impl PoseGraph {
         &mut self,
         a: VertexId,
         b: VertexId,
-        a_from_b: Se2,
+        a_from_b: P,
         kind: EdgeKind,
     ) -> Result<EdgeId, PoseGraphError> {
         for vertex in [a, b] {
@@ -79,7 +86,7 @@ impl PoseGraph {
             return Err(PoseGraphError::SelfEdge { vertex: a });
         }
         let length_m = a_from_b.distance();
-        if !(length_m.is_finite() && a_from_b.angle().is_finite()) {
+        if !a_from_b.is_finite() {
             return Err(PoseGraphError::NotFinite { a, b });
         }
         let edge = self.edges.push(Edge { a, b, a_from_b, length_m, kind, withdrawn: false });
@@ -116,17 +123,17 @@ impl PoseGraph {
     }
 
     /// The edge of an id that this graph gave out.
-    pub fn edge(&self, edge: EdgeId) -> &Edge {
+    pub fn edge(&self, edge: EdgeId) -> &Edge<P> {
         &self.edges[edge]
     }
 
     /// All edges with their ids, withdrawn ones included.
-    pub fn edges(&self) -> impl ExactSizeIterator<Item = (EdgeId, &Edge)> {
+    pub fn edges(&self) -> impl ExactSizeIterator<Item = (EdgeId, &Edge<P>)> {
         self.edges.iter_ids()
     }
 
     /// The edges at a vertex that are not withdrawn, in the order in which they came.
-    pub fn edges_of(&self, vertex: VertexId) -> impl Iterator<Item = (EdgeId, &Edge)> {
+    pub fn edges_of(&self, vertex: VertexId) -> impl Iterator<Item = (EdgeId, &Edge<P>)> {
         self.edges_of[vertex]
             .iter()
             .map(|&edge| (edge, &self.edges[edge]))

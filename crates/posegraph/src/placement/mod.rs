@@ -2,9 +2,11 @@
 
 mod contract;
 mod graph;
+mod relative_pose;
 mod scope;
 mod skeleton;
 
 pub use graph::{Edge, EdgeKind, PoseGraph};
+pub use relative_pose::RelativePose;
 pub use scope::{Placed, Placement, Scope, ScopeScratch};
 pub use skeleton::{Link, Skeleton, Via};

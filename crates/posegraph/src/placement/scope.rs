@@ -4,27 +4,28 @@ use pose::Se2;
 use probe::{EdgeId, VertexId};
 use search::{Graph, Scratch, dijkstra_nearest};
 
+use super::RelativePose;
 use crate::{Link, Skeleton};
 
 /// The skeleton as the search sees it: what its links cost.
-struct Ways<'a> {
-    skeleton: &'a Skeleton,
-    cost_m: fn(&Link) -> f64,
+struct Ways<'a, P> {
+    skeleton: &'a Skeleton<P>,
+    cost_m: fn(&Link<P>) -> f64,
 }
 
-impl<'a> Ways<'a> {
+impl<'a, P> Ways<'a, P> {
     /// For placement.
-    fn by_length(skeleton: &'a Skeleton) -> Self {
+    fn by_length(skeleton: &'a Skeleton<P>) -> Self {
         Self { skeleton, cost_m: |link| link.length_m }
     }
 
     /// For driving.
-    fn as_driven(skeleton: &'a Skeleton) -> Self {
+    fn as_driven(skeleton: &'a Skeleton<P>) -> Self {
         Self { skeleton, cost_m: |link| link.driven_m }
     }
 }
 
-impl Graph for Ways<'_> {
+impl<P: RelativePose> Graph for Ways<'_, P> {
     type Node = VertexId;
 
     fn node_bound(&self) -> usize {
@@ -40,11 +41,11 @@ impl Graph for Ways<'_> {
 
 /// A vertex placed relative to the root of a scope, along its shortest path.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Placed {
+pub struct Placed<P = Se2> {
     /// The vertex.
     pub vertex: VertexId,
     /// Its frame in the frame of the root.
-    pub root_from_vertex: Se2,
+    pub root_from_vertex: P,
     /// Length of the shortest path from the root, metres.
     pub distance_m: f64,
     /// How much of that is odometry, metres: only this drifts.
@@ -57,14 +58,20 @@ pub struct Placed {
 pub type Placement = Se2;
 
 /// All vertices within a radius of a root along the graph, nearest first.
-#[derive(Clone, Debug, Default)]
-pub struct Scope {
-    placed: Vec<Placed>,
+#[derive(Clone, Debug)]
+pub struct Scope<P = Se2> {
+    placed: Vec<Placed<P>>,
 }
 
-impl Scope {
+impl<P> Default for Scope<P> {
+    fn default() -> Self {
+        Self { placed: Vec::new() }
+    }
+}
+
+impl<P: RelativePose> Scope<P> {
     /// The vertices with their placements, by rising distance; the root is the first.
-    pub fn placed(&self) -> &[Placed] {
+    pub fn placed(&self) -> &[Placed<P>] {
         &self.placed
     }
 
@@ -76,10 +83,10 @@ impl Scope {
     /// The measured edges on the tree path between two rows of the scope.
     ///
     /// Edges that both rows share towards the root are not on it.
-    pub fn path_between(&self, skeleton: &Skeleton, a: usize, b: usize) -> Vec<EdgeId> {
+    pub fn path_between(&self, skeleton: &Skeleton<P>, a: usize, b: usize) -> Vec<EdgeId> {
         let (mut i, mut j) = (a, b);
         let mut head: Vec<EdgeId> = Vec::new();
-        let mut tail: Vec<&Link> = Vec::new();
+        let mut tail: Vec<&Link<P>> = Vec::new();
         // Rows are sorted by distance, so a parent always comes before its child: climbing from
         // the later row meets the other at their last common vertex.
         while i != j {
@@ -103,13 +110,17 @@ impl Scope {
         head
     }
 
-    fn link<'s>(&self, skeleton: &'s Skeleton, from: usize, to: usize) -> Option<&'s Link> {
+    fn link<'s>(&self, skeleton: &'s Skeleton<P>, from: usize, to: usize) -> Option<&'s Link<P>> {
         shortest_link(skeleton, self.placed[from].vertex, self.placed[to].vertex)
     }
 }
 
 /// The shortest of the links from one vertex to its neighbour; the first of equals.
-fn shortest_link(skeleton: &Skeleton, from: VertexId, to: VertexId) -> Option<&Link> {
+fn shortest_link<P: RelativePose>(
+    skeleton: &Skeleton<P>,
+    from: VertexId,
+    to: VertexId,
+) -> Option<&Link<P>> {
     skeleton.links(from).iter().filter(|link| link.to == to).min_by(|a, b| Link::by_length(a, b))
 }
 
@@ -125,19 +136,25 @@ impl ScopeScratch {
     ///
     /// A root that the skeleton does not hold, or that is retired, gives a scope of itself alone.
     /// Cost: O(k log k) for k links inside the radius, whatever the size of the graph.
-    pub fn place(&mut self, skeleton: &Skeleton, root: VertexId, radius_m: f64, scope: &mut Scope) {
+    pub fn place<P: RelativePose>(
+        &mut self,
+        skeleton: &Skeleton<P>,
+        root: VertexId,
+        radius_m: f64,
+        scope: &mut Scope<P>,
+    ) {
         self.place_nearest(skeleton, root, radius_m, usize::MAX, scope);
     }
 
     /// [`place`](Self::place), but of the vertices within the radius only the nearest `most`, at
     /// least the root.
-    pub fn place_nearest(
+    pub fn place_nearest<P: RelativePose>(
         &mut self,
-        skeleton: &Skeleton,
+        skeleton: &Skeleton<P>,
         root: VertexId,
         radius_m: f64,
         most: usize,
-        scope: &mut Scope,
+        scope: &mut Scope<P>,
     ) {
         scope.placed.clear();
         self.row_of.resize(skeleton.len(), u32::MAX);
@@ -149,7 +166,7 @@ impl ScopeScratch {
         let found =
             dijkstra_nearest(&Ways::by_length(skeleton), root, radius_m, full, &mut self.search);
         let Ok(tree) = found.map(|found| found.tree) else {
-            let root_from_vertex = Se2::identity();
+            let root_from_vertex = P::identity();
             scope.placed.push(Placed {
                 vertex: root,
                 root_from_vertex,
@@ -163,13 +180,13 @@ impl ScopeScratch {
             let row = scope.placed.len() as u32;
             self.row_of[settled.node.0 as usize] = row;
             let (parent, root_from_vertex, odometry_m) = match settled.parent {
-                None => (None, Se2::identity(), 0.0),
+                None => (None, P::identity(), 0.0),
                 Some(before) => {
                     let parent = self.row_of[before.0 as usize];
                     let before_row = scope.placed[parent as usize];
                     let (step, drifting_m) = shortest_link(skeleton, before, settled.node)
                         .map_or_else(
-                            || (Se2::identity(), 0.0),
+                            || (P::identity(), 0.0),
                             |link| (link.here_from_there, link.odometry_m),
                         );
                     let odometry_m = before_row.odometry_m + drifting_m;
@@ -187,9 +204,9 @@ impl ScopeScratch {
     }
 
     /// Length of the shortest path between two vertices if it is at most `limit_m`.
-    pub fn distance_within(
+    pub fn distance_within<P: RelativePose>(
         &mut self,
-        skeleton: &Skeleton,
+        skeleton: &Skeleton<P>,
         a: VertexId,
         b: VertexId,
         limit_m: f64,
@@ -208,9 +225,9 @@ impl ScopeScratch {
     /// after the root, in driving order, each with the length of the link that leads to it.
     ///
     /// `Some` of an empty way means that the root itself is the goal.
-    pub fn way_to_nearest(
+    pub fn way_to_nearest<P: RelativePose>(
         &mut self,
-        skeleton: &Skeleton,
+        skeleton: &Skeleton<P>,
         root: VertexId,
         limit_m: f64,
         is_goal: impl FnMut(VertexId) -> bool,

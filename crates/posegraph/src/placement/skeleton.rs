@@ -6,6 +6,7 @@ use std::sync::Arc;
 use pose::Se2;
 use probe::{EdgeId, IdVec, VertexId};
 
+use super::RelativePose;
 use crate::{Edge, EdgeKind, ScopeScratch};
 
 /// The measured edges that a link stands for, in the order in which they are walked.
@@ -41,11 +42,11 @@ impl Via {
 
 /// A way from one vertex to another that placement may take.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Link {
+pub struct Link<P = Se2> {
     /// Where the link leads.
     pub to: VertexId,
     /// Frame of [`to`](Self::to) in the frame of the vertex that holds the link.
-    pub here_from_there: Se2,
+    pub here_from_there: P,
     /// Length of the way, metres: the sum over the edges that it stands for, place edges
     /// [weighed](Skeleton::weigh_places). Placement takes the shortest.
     pub length_m: f64,
@@ -57,12 +58,12 @@ pub struct Link {
     pub via: Via,
 }
 
-impl Link {
+impl<P: RelativePose> Link<P> {
     /// The way of no length from a vertex to itself.
     pub(crate) fn nowhere(at: VertexId) -> Self {
         Self {
             to: at,
-            here_from_there: Se2::identity(),
+            here_from_there: P::identity(),
             length_m: 0.0,
             driven_m: 0.0,
             odometry_m: 0.0,
@@ -71,7 +72,7 @@ impl Link {
     }
 
     /// This link and then another one from where it leads.
-    pub(crate) fn then(&self, next: &Link) -> Self {
+    pub(crate) fn then(&self, next: &Link<P>) -> Self {
         Self {
             to: next.to,
             here_from_there: self.here_from_there * next.here_from_there,
@@ -95,17 +96,17 @@ impl Link {
     }
 
     /// The shorter first; of equally long ones that of the earlier edges.
-    pub(crate) fn by_length(a: &Link, b: &Link) -> Ordering {
+    pub(crate) fn by_length(a: &Link<P>, b: &Link<P>) -> Ordering {
         a.length_m.total_cmp(&b.length_m).then_with(|| a.via.edges().cmp(b.via.edges()))
     }
 }
 
-#[derive(Clone, Debug, Default)]
-pub(crate) struct Node {
-    pub links: Vec<Link>,
+#[derive(Clone, Debug)]
+pub(crate) struct Node<P> {
+    pub links: Vec<Link<P>>,
     /// The links that the vertex had when it was retired, shortest first; none while it is not.
     /// They lead to vertices that were retired later, or not at all.
-    pub spare: Vec<Link>,
+    pub spare: Vec<Link<P>>,
 }
 
 /// A pose graph reduced to what relative placement needs.
@@ -117,8 +118,8 @@ pub(crate) struct Node {
 /// [comes back](Self::restore) and over edges that come to retired vertices later; but no way
 /// becomes shorter than it is, and nothing that was connected comes apart.
 #[derive(Clone, Debug)]
-pub struct Skeleton {
-    pub(crate) nodes: IdVec<VertexId, Node>,
+pub struct Skeleton<P = Se2> {
+    pub(crate) nodes: IdVec<VertexId, Node<P>>,
     pub(crate) horizon_m: f64,
     pub(crate) stretch: f64,
     pub(crate) place_weight: f64,
@@ -126,7 +127,7 @@ pub struct Skeleton {
     pub(crate) whole: bool,
 }
 
-impl Skeleton {
+impl<P: RelativePose> Skeleton<P> {
     /// An empty skeleton that keeps shortest ways exact up to `horizon_m` metres.
     pub fn new(horizon_m: f64) -> Self {
         Self::with_stretch(horizon_m, 1.0)
@@ -156,7 +157,7 @@ impl Skeleton {
     /// Makes room for vertices up to and including `vertex`.
     pub fn cover(&mut self, vertex: VertexId) {
         while self.nodes.next_id() <= vertex {
-            self.nodes.push(Node::default());
+            self.nodes.push(Node { links: Vec::new(), spare: Vec::new() });
         }
     }
 
@@ -186,16 +187,16 @@ impl Skeleton {
     }
 
     /// The links at a vertex; none at a retired one.
-    pub fn links(&self, vertex: VertexId) -> &[Link] {
+    pub fn links(&self, vertex: VertexId) -> &[Link<P>] {
         &self.nodes[vertex].links
     }
 
     /// The vertex that stands for `vertex`, and the frame of `vertex` in its frame.
     ///
     /// A vertex that is not retired stands for itself.
-    pub fn resolve(&self, vertex: VertexId) -> (VertexId, Se2) {
+    pub fn resolve(&self, vertex: VertexId) -> (VertexId, P) {
         let mut at = vertex;
-        let mut at_from_vertex = Se2::identity();
+        let mut at_from_vertex = P::identity();
         // Links of retired vertices lead to vertices that were retired later, or not at all.
         while let Some(nearest) = self.nodes[at].spare.first() {
             at_from_vertex = nearest.here_from_there.inverse() * at_from_vertex;
@@ -209,7 +210,7 @@ impl Skeleton {
     ///
     /// Cost: constant for ends that are not retired; else that of [`restore`](Self::restore), and for
     /// two ends that are, of [`retire`](Self::retire) besides.
-    pub fn add_edge(&mut self, id: EdgeId, edge: &Edge, scratch: &mut ScopeScratch) {
+    pub fn add_edge(&mut self, id: EdgeId, edge: &Edge<P>, scratch: &mut ScopeScratch) {
         let is_odometry = edge.kind == EdgeKind::Odometry;
         let link = Link {
             to: edge.b,
@@ -246,14 +247,14 @@ impl Skeleton {
             .iter()
             .map(|node| {
                 let links = node.links.capacity() + node.spare.capacity();
-                size_of::<Node>() + links * size_of::<Link>()
+                size_of::<Node<P>>() + links * size_of::<Link<P>>()
             })
             .sum();
         nodes + chains
     }
 
     /// Adds a link at both its ends.
-    pub(crate) fn connect(&mut self, from: VertexId, link: Link) {
+    pub(crate) fn connect(&mut self, from: VertexId, link: Link<P>) {
         let (to, back) = (link.to, link.back_to(from));
         self.nodes[from].links.push(link);
         self.nodes[to].links.push(back);

@@ -1,6 +1,8 @@
 //! Placement along shortest paths ([ISRR19] 4.2) and the scope (4.3).
 
-use posegraph::{Scope, ScopeScratch, Skeleton};
+use pose::Se3;
+use pose::nalgebra::{UnitQuaternion, Vector3};
+use posegraph::{EdgeKind, PoseGraph, PoseGraphError, Scope, ScopeScratch, Skeleton};
 use probe::VertexId;
 use proptest::prelude::*;
 
@@ -162,7 +164,43 @@ proptest! {
 fn a_root_that_is_not_there_stands_alone() {
     let (mut scope, mut scratch) = (Scope::default(), ScopeScratch::default());
     assert_eq!(scope.root(), None);
-    let skeleton = posegraph::Skeleton::new(10.0);
+    let skeleton: Skeleton = Skeleton::new(10.0);
     scratch.place(&skeleton, VertexId(3), 10.0, &mut scope);
     assert_eq!((scope.root(), scope.placed().len()), (Some(VertexId(3)), 1));
+}
+
+/// In space as in the plane: the plane lifted into space gives the same ways and places.
+#[test]
+fn space_is_placed_as_the_plane_is() {
+    let turn = |angle| UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angle);
+    let mut graph: PoseGraph<Se3> = PoseGraph::new();
+    let (mut skeleton, mut scratch) = (Skeleton::new(10.0), ScopeScratch::default());
+    let vertices: Vec<VertexId> = (0..6).map(|_| graph.add_vertex()).collect();
+    skeleton.cover(vertices[5]);
+    // A hexagon of 1 m, climbing by 0.5 m with each step; the last side is a place edge.
+    let step = Se3::new(Vector3::new(1.0, 0.0, 0.5), turn(std::f64::consts::FRAC_PI_3));
+    let mut edges = Vec::new();
+    for pair in vertices.windows(2) {
+        let edge = graph.add_edge(pair[0], pair[1], step, EdgeKind::Odometry).unwrap();
+        skeleton.add_edge(edge, graph.edge(edge), &mut scratch);
+        edges.push(edge);
+    }
+    let all = (0..5).fold(Se3::identity(), |so_far, _| so_far * step);
+    let place = graph.add_edge(vertices[0], vertices[5], all, EdgeKind::Place).unwrap();
+    skeleton.add_edge(place, graph.edge(place), &mut scratch);
+    let mut scope = Scope::default();
+    assert!(skeleton.retire(vertices[1], &mut scratch));
+    scratch.place(&skeleton, vertices[0], 10.0, &mut scope);
+    for row in scope.placed() {
+        let steps = row.vertex.0;
+        let expected = (0..steps).fold(Se3::identity(), |so_far, _| so_far * step);
+        let off = expected.inverse_mul(&row.root_from_vertex);
+        assert!(off.distance() < 1e-12 && off.rotation.angle() < 1e-12, "{row:?}");
+    }
+    let row_of = |v| scope.placed().iter().position(|row| row.vertex == vertices[v]).unwrap();
+    assert_eq!(scope.path_between(&skeleton, row_of(2), 0), [edges[1], edges[0]]);
+    assert_eq!(scope.path_between(&skeleton, 0, row_of(5)), [place]);
+    let broken = Se3::new(Vector3::new(1.0, f64::NAN, 0.0), turn(0.0));
+    let refused = graph.add_edge(vertices[0], vertices[2], broken, EdgeKind::Place);
+    assert!(matches!(refused, Err(PoseGraphError::NotFinite { .. })));
 }
