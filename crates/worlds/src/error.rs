@@ -78,4 +78,50 @@ pub enum WorldError {
         /// Pillars asked for.
         wanted: usize,
     },
+    /// The place of space has no surface.
+    #[error("the mesh has no triangles: nothing to fly in")]
+    NoTriangles,
+    /// A triangle has a corner that does not exist or is not finite.
+    #[error("triangle {triangle} has corner {vertex}, not a finite one of {vertices} vertices")]
+    Corner {
+        /// The triangle, from 0.
+        triangle: usize,
+        /// The vertex that it names, from 0.
+        vertex: u32,
+        /// Number of vertices.
+        vertices: usize,
+    },
+    /// A vertex lies farther from the origin than positions are exact enough for.
+    #[error("vertex {vertex} lies {reach_m:e} m from the origin: at most {limit_m:e} m")]
+    FarVertex {
+        /// The vertex, from 0.
+        vertex: u32,
+        /// Its largest coordinate, metres.
+        reach_m: f64,
+        /// Most that is allowed.
+        limit_m: f64,
+    },
+    /// The start does not lie in the place of space.
+    #[error("the start ({x_m} m, {y_m} m, {z_m} m) is outside of the mesh or on it")]
+    StartInSpace {
+        /// x of the start in the world frame, metres.
+        x_m: f64,
+        /// y of the start in the world frame, metres.
+        y_m: f64,
+        /// z of the start in the world frame, metres.
+        z_m: f64,
+    },
+    /// No start is named, and no place is closed in by the mesh.
+    #[error("no place is closed in by the mesh on all sides: name a start")]
+    NotClosedIn,
+    /// The robot does not fit where it starts.
+    #[error(
+        "the robot of radius {radius_m} m starts {clearance_m:.3} m from a surface: it does not fit"
+    )]
+    StartTooTight {
+        /// Radius of the body, metres.
+        radius_m: f64,
+        /// Distance from the start to the nearest surface, metres.
+        clearance_m: f64,
+    },
 }

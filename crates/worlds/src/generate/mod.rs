@@ -13,10 +13,10 @@
 
 mod caves;
 mod corridor;
-mod draw;
+pub(crate) mod draw;
 mod maze;
 mod pillars;
-mod range;
+pub(crate) mod range;
 mod rooms;
 
 pub use caves::{CavesParams, caves, caves_cells};

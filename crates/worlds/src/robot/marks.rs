@@ -1,29 +1,21 @@
 //! The places that the robot has named, and the graph between them.
 
-use std::cmp::Ordering;
-use std::collections::{BTreeMap, BinaryHeap, HashMap};
+use std::collections::HashMap;
 
 use geometry::Point2;
 use pose::Se2;
 use probe::{Id, VertexId};
+
+use super::links::Links;
 
 /// Named places: where they truly are, and how far apart the robot believes them along its graph.
 #[derive(Clone, Debug)]
 pub(super) struct Marks {
     poses: Vec<Option<Se2>>,
     order: Vec<VertexId>,
-    links: Vec<BTreeMap<u32, f64>>,
+    links: Links,
     bucket_m: f64,
     buckets: HashMap<(i64, i64), Vec<VertexId>>,
-    reach: Reach,
-}
-
-/// Distances of the last bounded search; a stamp per vertex saves clearing them.
-#[derive(Clone, Debug, Default)]
-struct Reach {
-    round: u32,
-    stamp: Vec<u32>,
-    distance_m: Vec<f64>,
 }
 
 impl Marks {
@@ -33,10 +25,9 @@ impl Marks {
         Self {
             poses: Vec::new(),
             order: Vec::new(),
-            links: Vec::new(),
+            links: Links::default(),
             bucket_m,
             buckets: HashMap::new(),
-            reach: Reach::default(),
         }
     }
 
@@ -55,7 +46,6 @@ impl Marks {
         let index = vertex.index();
         if self.poses.len() <= index {
             self.poses.resize(index + 1, None);
-            self.links.resize(index + 1, BTreeMap::new());
         }
         match self.poses[index].replace(world_from_vertex) {
             None => self.order.push(vertex),
@@ -72,12 +62,8 @@ impl Marks {
 
     /// Joins two places by a way of that length; of several ways the shortest counts.
     pub(super) fn link(&mut self, a: VertexId, b: VertexId, length_m: f64) {
-        if a == b || self.pose(a).is_none() || self.pose(b).is_none() {
-            return;
-        }
-        for (from, to) in [(a, b), (b, a)] {
-            let known = self.links[from.index()].entry(to.0).or_insert(length_m);
-            *known = known.min(length_m);
+        if self.pose(a).is_some() && self.pose(b).is_some() {
+            self.links.link(a, b, length_m);
         }
     }
 
@@ -106,59 +92,15 @@ impl Marks {
     /// Searches the graph from `from` for everything nearer than `limit_m` along it; asked of by
     /// [`reached`](Self::reached) until the next search. Cost: what lies within the limit.
     pub(super) fn search(&mut self, from: VertexId, limit_m: f64) {
-        let reach = &mut self.reach;
-        reach.stamp.resize(self.poses.len(), 0);
-        reach.distance_m.resize(self.poses.len(), 0.0);
-        reach.round += 1;
-        let mut open = BinaryHeap::new();
-        if from.index() < self.poses.len() && limit_m > 0.0 {
-            reach.stamp[from.index()] = reach.round;
-            reach.distance_m[from.index()] = 0.0;
-            open.push(Open { distance_m: 0.0, vertex: from.0 });
-        }
-        while let Some(Open { distance_m, vertex }) = open.pop() {
-            if distance_m > reach.distance_m[vertex as usize] {
-                continue;
-            }
-            for (&next, &length_m) in &self.links[vertex as usize] {
-                let through_m = distance_m + length_m;
-                let known = reach.stamp[next as usize] == reach.round;
-                if through_m < limit_m && !(known && reach.distance_m[next as usize] <= through_m) {
-                    reach.stamp[next as usize] = reach.round;
-                    reach.distance_m[next as usize] = through_m;
-                    open.push(Open { distance_m: through_m, vertex: next });
-                }
-            }
-        }
+        self.links.search(from, limit_m);
     }
 
     /// Whether the last search reached a vertex.
     pub(super) fn reached(&self, vertex: VertexId) -> bool {
-        self.reach.stamp.get(vertex.index()) == Some(&self.reach.round)
+        self.links.reached(vertex)
     }
 
     fn bucket_of(&self, point: &Point2) -> (i64, i64) {
         ((point.x / self.bucket_m).floor() as i64, (point.y / self.bucket_m).floor() as i64)
-    }
-}
-
-/// An entry of the queue, the nearest first; ties by id.
-#[derive(PartialEq)]
-struct Open {
-    distance_m: f64,
-    vertex: u32,
-}
-
-impl Eq for Open {}
-
-impl Ord for Open {
-    fn cmp(&self, other: &Self) -> Ordering {
-        other.distance_m.total_cmp(&self.distance_m).then(other.vertex.cmp(&self.vertex))
-    }
-}
-
-impl PartialOrd for Open {
-    fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
-        Some(self.cmp(other))
     }
 }

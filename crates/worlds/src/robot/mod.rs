@@ -1,10 +1,11 @@
 //! A simulated robot: the truth behind the observations that [`sensing::Robot`] offers.
 
+pub(crate) mod links;
 mod marks;
 mod motion;
 mod params;
-mod random;
-mod recognition;
+pub(crate) mod random;
+pub(crate) mod recognition;
 mod sim;
 mod tally;
 
