@@ -110,6 +110,52 @@ pub enum Maps3dError {
         /// The first thing that is wrong.
         fault: String,
     },
+    /// Tetrahedra that point at nothing.
+    #[error("volume {volume}: {what}: {index}")]
+    Tetrahedra {
+        /// The volume, as they were given.
+        volume: usize,
+        /// What is wrong.
+        what: &'static str,
+        /// Of which vertex, tetrahedron or face.
+        index: usize,
+    },
+    /// A point from or to which a path is asked for lies in no tetrahedron.
+    #[error("the {what} ({x}, {y}, {z}) lies in no free space")]
+    Outside {
+        /// Start or goal.
+        what: &'static str,
+        /// Its x, metres.
+        x: f64,
+        /// Its y, metres.
+        y: f64,
+        /// Its z, metres.
+        z: f64,
+    },
+    /// A point from or to which a path is asked for is too near to an obstacle.
+    #[error(
+        "the {what} ({x}, {y}, {z}) is {distance_m:.4} m from an obstacle, less than the radius of {radius_m} m"
+    )]
+    TooNear {
+        /// Start or goal.
+        what: &'static str,
+        /// Its x, metres.
+        x: f64,
+        /// Its y, metres.
+        y: f64,
+        /// Its z, metres.
+        z: f64,
+        /// Its distance from the nearest obstacle face, metres.
+        distance_m: f64,
+        /// The radius, metres.
+        radius_m: f64,
+    },
+    /// A search refused the dual graph; a bug of ours.
+    #[error("the search refused the dual graph: {reason}")]
+    Search {
+        /// Its own words.
+        reason: String,
+    },
     /// The polyhedron was refused.
     #[error(transparent)]
     Solid(#[from] solid::SolidError),

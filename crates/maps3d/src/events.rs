@@ -1,5 +1,6 @@
 //! What can be watched on the way from a depth image to a polyhedron.
 
+use probe::Probe;
 use solid::{Label, Polyhedron};
 
 use crate::image::{FilledImage, Pixel};
@@ -96,3 +97,8 @@ pub enum DepthEvent<'a> {
 
 probe::variants!(DepthEvent<'_>: Prepared, Triangulated, Removed, Inserted, Reached, Thinned, Flipped, Fitted,
     Withheld, Reduced, Labelled, Joined);
+
+/// A listener of all events of this crate; implemented by whatever listens to each family.
+pub trait Map3dProbe: for<'a> Probe<DepthEvent<'a>> {}
+
+impl<P> Map3dProbe for P where P: for<'a> Probe<DepthEvent<'a>> + ?Sized {}

@@ -4,6 +4,7 @@
 pub mod depth {}
 
 pub mod image;
+pub mod plan;
 pub mod quality;
 pub mod reduce;
 pub mod triangulate;
@@ -11,9 +12,15 @@ pub mod view;
 
 mod error;
 mod events;
+mod map;
 mod pipeline;
 mod tolerance;
 
 pub use error::Maps3dError;
-pub use events::DepthEvent;
+pub use events::{DepthEvent, Map3dProbe};
+pub use map::{
+    FlightClearance, FlightRoute, FrontierPatch, FrontierPoint, Hovering, Known, Look, Map3d,
+    MapTally,
+};
 pub use pipeline::{Made, ViewOptions, polyhedron, polyhedron_with};
+pub use plan::{Algorithm, Heuristic, Plan, PlanEvent, PlanOptions, Planner, Target};

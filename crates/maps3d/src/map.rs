@@ -1,0 +1,213 @@
+//! What a policy asks of a map of space, whatever represents it.
+
+use nalgebra::{Point3, Vector3};
+use pose::Se3;
+use posegraph::PoseGraph;
+use probe::{EdgeId, VertexId};
+use sensing::DepthImage;
+
+use crate::{Map3dProbe, Maps3dError};
+
+/// Where the robot believes that it hovers: at a vertex, maybe turned.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Hovering {
+    /// The vertex.
+    pub vertex: VertexId,
+    /// The body in the frame of the vertex; it only turns about the vertical.
+    pub vertex_from_body: Se3,
+}
+
+/// One depth image and where it was taken.
+#[derive(Clone, Copy, Debug)]
+pub struct Look<'a> {
+    /// The vertex that the robot hovered at.
+    pub vertex: VertexId,
+    /// The camera in the frame of the vertex. Looks of one vertex are exact to each other: the robot
+    /// turned on the spot.
+    pub vertex_from_camera: Se3,
+    /// What was seen.
+    pub image: &'a DepthImage,
+}
+
+/// A place on a frontier, and the share of the frontier that it stands for.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrontierPoint {
+    /// A point of the frontier, in the frame `body`, metres.
+    pub in_body: Point3<f64>,
+    /// Unit vector across the frontier there, into the unknown, in the frame `body`.
+    pub normal_in_body: Vector3<f64>,
+    /// The area that it stands for, square metres.
+    pub area_m2: f64,
+}
+
+/// Frontier that hangs together and counts.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FrontierPatch {
+    /// The vertex whose views it belongs to; that of [`Hovering`] for maps with one global frame.
+    pub owner: VertexId,
+    /// Points to go to, the one that stands for the largest area first; at least one. A large
+    /// frontier has several (\[Mos15\] 4.3).
+    pub points: Vec<FrontierPoint>,
+    /// Its area, square metres.
+    pub area_m2: f64,
+    /// A name that stays the same while the map does not change.
+    pub tag: u64,
+}
+
+/// How near a straight motion comes to what is solid, and to what was not seen from where it starts.
+///
+/// A point, not a body: a round body keeps clear where these exceed its radius.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FlightClearance {
+    /// The least distance to what is solid, metres, at the start of the motion.
+    pub solid_at_start_m: f64,
+    /// The same along all of it; 0 where it goes through something.
+    pub solid_m: f64,
+    /// The same at its end.
+    pub solid_at_end_m: f64,
+    /// The least distance to what was not seen along the part of the motion that is farther than
+    /// `leaving_m` from its start, metres; 0 where it leaves what was seen.
+    ///
+    /// Nearer than that the robot's own place ends: it has no eyes for what is beside it.
+    pub unseen_m: f64,
+    /// The same at its end.
+    pub unseen_at_end_m: f64,
+}
+
+impl FlightClearance {
+    /// Leaves what was seen, or goes through something.
+    pub const NONE: Self = Self {
+        solid_at_start_m: 0.0,
+        solid_m: 0.0,
+        solid_at_end_m: 0.0,
+        unseen_m: 0.0,
+        unseen_at_end_m: 0.0,
+    };
+
+    /// Whether a round body keeps these distances; or, where it starts nearer to something solid,
+    /// gets no nearer and ends at that distance.
+    pub fn keeps(&self, solid_m: f64, unseen_m: f64) -> bool {
+        let leaves = self.solid_at_start_m < solid_m
+            && self.solid_m > 0.0
+            && self.solid_m >= 0.99 * self.solid_at_start_m
+            && self.solid_at_end_m >= solid_m;
+        self.unseen_m >= unseen_m && (self.solid_m >= solid_m || leaves)
+    }
+}
+
+/// What is left to explore, as the map believes, and what it holds.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MapTally {
+    /// Area of the frontier that counts, square metres.
+    pub open_m2: f64,
+    /// Area of frontier that does not, because it hangs together over too little, square metres.
+    pub sliver_m2: f64,
+    /// The largest of those pieces, square metres.
+    pub largest_sliver_m2: f64,
+    /// Area of frontier that does not, because it was given up, square metres.
+    pub given_up_m2: f64,
+    /// Pieces of frontier that count.
+    pub patches: usize,
+    /// Faces that the map holds; 0 for cells.
+    pub faces: usize,
+    /// Volumes on vertices, or cells.
+    pub volumes: usize,
+}
+
+/// How to get to frontier that cannot be gone to from here.
+#[derive(Clone, Debug, PartialEq)]
+pub enum FlightRoute {
+    /// By teach and repeat along the graph: the vertices in order, each with the length of the link
+    /// that leads to it, metres. Empty where the robot is at the goal already.
+    Repeat(Vec<(VertexId, f64)>),
+    /// Straight legs through free space: points in the frame `body` of now.
+    Fly(Vec<Point3<f64>>),
+}
+
+/// What a map takes a point for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Known {
+    /// Nothing stands there.
+    Free,
+    /// Something does.
+    Solid,
+    /// Nobody looked.
+    Unknown,
+}
+
+/// A map of space that exploration runs on: fed with looks and graph events, asked for frontiers.
+///
+/// The twin of `ExplorationMap` of `maps2d`. Points are in the frame `body` of [`Hovering`], so that no
+/// answer needs a global frame.
+pub trait Map3d {
+    /// The name of the representation, as in configs and results: `relative`, `voxels`, ...
+    fn kind(&self) -> &'static str;
+
+    /// Edges were added to `graph`, all with one vertex in common; it may have no view yet.
+    fn edges_added(&mut self, graph: &PoseGraph<Se3>, edges: &[EdgeId], probe: &mut dyn Map3dProbe);
+
+    /// A place edge of `graph` was withdrawn.
+    fn edge_withdrawn(&mut self, graph: &PoseGraph<Se3>, edge: EdgeId, probe: &mut dyn Map3dProbe);
+
+    /// Poses of the graph were estimated anew: `map_from_vertex` by vertex. Maps without one global
+    /// frame do not look at them.
+    fn poses_reestimated(&mut self, _map_from_vertex: &[Se3], _probe: &mut dyn Map3dProbe) {}
+
+    /// A depth image was taken at a vertex, or after turning on the spot there.
+    ///
+    /// # Errors
+    /// An image or a camera that no view can be made of; the map is what it was before.
+    fn looked(&mut self, look: &Look<'_>, probe: &mut dyn Map3dProbe) -> Result<(), Maps3dError>;
+
+    /// What is left to explore, and what the map holds.
+    fn tally(&self) -> MapTally;
+
+    /// The frontier that can be gone to from where the robot hovers, in no particular order: that of
+    /// the views taken there, or all there is in a map with one global frame. `out` is overwritten.
+    fn frontiers(&mut self, hovering: &Hovering, out: &mut Vec<FrontierPatch>);
+
+    /// Area of the frontier that counts at a vertex, square metres; 0 means that a way to it is not
+    /// worth going on with. Maps with one global frame tell all.
+    fn frontier_at(&self, vertex: VertexId) -> f64;
+
+    /// The way to the nearest frontier of a vertex that `comes_now`, or `None` if there is none.
+    ///
+    /// `clearance_m` is what a [`FlightRoute::Fly`] keeps from everything. A map whose frontier belongs
+    /// to no vertex leads to the nearest of all.
+    fn route(
+        &mut self,
+        hovering: &Hovering,
+        clearance_m: f64,
+        comes_now: &dyn Fn(VertexId) -> bool,
+    ) -> Option<FlightRoute>;
+
+    /// How near the straight motion `to_in_body` comes to what is solid, and to what was not seen.
+    ///
+    /// Within `leaving_m` of its start what was not seen does not count: the body is there already, or
+    /// came from there.
+    fn clearance(
+        &mut self,
+        hovering: &Hovering,
+        to_in_body: &Point3<f64>,
+        leaving_m: f64,
+    ) -> FlightClearance;
+
+    /// Frontier within `radius_m` of `place_in_body` does not count from now on.
+    ///
+    /// With `everywhere` the robot got as near as it may, looked, and it is still there: that holds for
+    /// every volume in scope, now and later. Without, only frontier of the vertex where it hovers.
+    fn give_up(
+        &mut self,
+        hovering: &Hovering,
+        place_in_body: &Point3<f64>,
+        radius_m: f64,
+        everywhere: bool,
+        probe: &mut dyn Map3dProbe,
+    );
+
+    /// What the map takes a point for, by all views near in the graph.
+    fn knows(&self, hovering: &Hovering, point_in_body: &Point3<f64>) -> Known;
+
+    /// Memory held, bytes.
+    fn bytes(&self) -> usize;
+}
