@@ -8,11 +8,13 @@ pub mod trajectory;
 mod traversal;
 mod verdict;
 mod view_fill;
+pub mod voxels;
 mod witness;
 
 pub use accuracy::Accuracy;
 pub use coverage::{CellShape, Coverage, CoverageParams, Rule};
 pub use error::MetricsError;
 pub use verdict::Verdict;
+pub use voxels::{FlightWitness, VoxelCoverage, VoxelParams};
 pub use witness::Witness;
 pub use worlds::{Tally, View};

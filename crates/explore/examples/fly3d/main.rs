@@ -1,0 +1,176 @@
+//! Explores a generated place of space and prints how it went:
+//! `cargo run --release -p explore --example fly3d -- WORLD SEED SCALE [MAP] [key=value ...]`
+//!
+//! WORLD is `rooms`, `office`, `pillars` or `cave`; SCALE multiplies the drift of odometry.
+
+#![expect(clippy::print_stdout, reason = "an example that prints")]
+
+mod points_map;
+
+use std::sync::Arc;
+use std::time::Instant;
+
+use explore::{FlightEvent, FlightExplorer, FlightParams};
+use maps3d::DepthEvent;
+use maps3d::Map3d;
+use metrics::{FlightWitness, VoxelCoverage, VoxelParams};
+use probe::Probe;
+use worlds::space::{
+    Cave3dParams, Office3dParams, Pillars3dParams, Rooms3dParams, cave, office, pillars, rooms,
+};
+use worlds::{FlyerParams, SimFlyer, World3d};
+
+/// Prints what happens, where asked to.
+struct Told(bool);
+
+impl Probe<FlightEvent<'_>> for Told {
+    fn emit(&mut self, event: FlightEvent<'_>) {
+        if !self.0 {
+            return;
+        }
+        match event {
+            FlightEvent::ViewpointsScored { at, targets, scored } => {
+                println!("    scored at {at}: {} targets, {} places", targets.len(), scored.len());
+            }
+            FlightEvent::Looked { hovering, .. } => {
+                let yaw = hovering.vertex_from_body.rotation.euler_angles().2.to_degrees();
+                println!("    looked at {} yaw {yaw:.0}", hovering.vertex);
+            }
+            FlightEvent::RoutePlanned { hovering, route, length_m } => {
+                println!("    route from {}: {length_m:.1} m {route:?}", hovering.vertex);
+            }
+            other => println!("    {other:?}"),
+        }
+    }
+}
+
+impl Probe<DepthEvent<'_>> for Told {
+    fn on(&self) -> bool {
+        false
+    }
+
+    fn emit(&mut self, _: DepthEvent<'_>) {}
+}
+
+fn world(name: &str, seed: u64) -> World3d {
+    match name {
+        "rooms" => rooms(&Rooms3dParams { seed, ..Rooms3dParams::default() }),
+        "office" => office(&Office3dParams { seed, ..Office3dParams::default() }),
+        "pillars" => pillars(&Pillars3dParams { seed, ..Pillars3dParams::default() }),
+        _ => cave(&Cave3dParams { seed, ..Cave3dParams::default() }),
+    }
+    .expect("a world")
+}
+
+fn map_of(name: &str) -> Box<dyn Map3d + Send> {
+    match name {
+        "points" => Box::new(points_map::PointsMap::default()),
+        _ => panic!("unknown map {name}"),
+    }
+}
+
+fn main() {
+    let args: Vec<String> = std::env::args().skip(1).collect();
+    let arg = |at: usize, or: &'static str| args.get(at).cloned().unwrap_or(or.into());
+    let place = arg(0, "rooms");
+    let seed: u64 = arg(1, "1").parse().expect("a seed");
+    let scale: f64 = arg(2, "1").parse().expect("a scale");
+    let kind = arg(3, "points");
+    let mut params = FlyerParams::default();
+    params.odometry.scale = scale;
+    let mut flight =
+        FlightParams { body_radius_m: params.radius_m, max_steps: 3000, ..FlightParams::default() };
+    let mut verbose = false;
+    for pair in args.iter().skip(4) {
+        let (key, value) = pair.split_once('=').expect("key=value");
+        let number = || value.parse::<f64>().expect("a number");
+        match key {
+            "v" => verbose = true,
+            "steps" => flight.max_steps = number() as u64,
+            "fov" => params.camera.fov_down_rad = number().to_radians(),
+            "hop" => flight.hop_m = number(),
+            _ => panic!("unknown key {key}"),
+        }
+    }
+    let started = Instant::now();
+    let world = Arc::new(world(&place, seed));
+    let coverage =
+        VoxelCoverage::new(&world, &params.camera, params.radius_m, VoxelParams::default());
+    let coverage = coverage.expect("voxels");
+    let judged_secs = started.elapsed().as_secs_f64();
+    println!(
+        "{place} seed {seed} scale {scale}: {} triangles, {} of {} voxels count, {judged_secs:.1} s",
+        world.triangles().len(),
+        coverage.cells_counted(),
+        coverage.cells_total()
+    );
+    let robot = SimFlyer::new(world.clone(), params, seed).expect("it fits");
+    let mut witness = FlightWitness::new(robot, coverage);
+    let mut explorer = FlightExplorer::new(vec![map_of(&kind)], flight);
+    let started = Instant::now();
+    let mut told = Told(verbose);
+    let mut collided = 0;
+    let report = loop {
+        let report = explorer.step(&mut witness, &mut told);
+        if verbose || explorer.steps().is_multiple_of(100) {
+            println!(
+                "  step {} at {} looks {} flown {:.1} coverage {:.4} open {:.2} m2 in {} sliver {:.3} given up {:.3} bumps {}",
+                explorer.steps(),
+                report.hovering.vertex,
+                explorer.looks(),
+                witness.tally().distance_m,
+                witness.coverage().fraction(),
+                report.tally.open_m2,
+                report.tally.patches,
+                report.tally.sliver_m2,
+                report.tally.given_up_m2,
+                witness.tally().bumps,
+            );
+        }
+        if witness.tally().collisions > collided {
+            collided = witness.tally().collisions;
+            println!("  COLLISION at step {} from {}", explorer.steps(), report.hovering.vertex);
+        }
+        if report.ending.is_some() {
+            break report;
+        }
+    };
+    let verdict = witness.verdict(report.ending == Some(explore::Ending::Complete));
+    let tally = witness.tally();
+    let start = world.world_from_start();
+    let odom_error_m =
+        (start * report.odom_from_body).inverse_mul(&witness.world_from_body()).distance();
+    println!(
+        "{place} {seed} {scale} {kind}: {:?} coverage {:.4} flown {:.0} m d_max {:?} steps {} looks {} vertices {} \
+         collisions {} bumps {} clearance {:.3} open {:.3} sliver {:.3} largest {:.3} given_up {:.3} ({}) odom error {odom_error_m:.2} m {:.1} s",
+        report.ending,
+        verdict.coverage,
+        verdict.distance_m,
+        verdict.d_max_m.map(|d| d.round()),
+        explorer.steps(),
+        explorer.looks(),
+        explorer.graph().vertex_count(),
+        tally.collisions,
+        tally.bumps,
+        tally.min_clearance_m,
+        report.tally.open_m2,
+        report.tally.sliver_m2,
+        report.tally.largest_sliver_m2,
+        report.tally.given_up_m2,
+        explorer.given_up(),
+        started.elapsed().as_secs_f64()
+    );
+    if verdict.coverage < 0.999 {
+        let missing: Vec<String> = witness
+            .coverage()
+            .unseen()
+            .iter()
+            .take(12)
+            .map(|&at| {
+                let p = witness.coverage().centre_in_world(at);
+                format!("({:.1} {:.1} {:.1})", p.x, p.y, p.z)
+            })
+            .collect();
+        println!("  unseen {}: {}", witness.coverage().unseen().len(), missing.join(" "));
+    }
+}

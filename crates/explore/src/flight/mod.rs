@@ -1,0 +1,45 @@
+//! Exploration of space: a flying robot with a depth camera, and a map of [`maps3d`] that steers it.
+//!
+//! The camera sees a pyramid. Its four sides are frontier, and so is what hides behind edges and what is too
+//! far to read. Turning on the spot closes the left and the right side; what is above and below must be seen
+//! from elsewhere, because the robot can only turn about the vertical. One step is the first of these that
+//! applies:
+//!
+//! 0. **Go on.** A way along the graph that was begun is followed leg by leg; a flight that was planned for
+//!    its end is made.
+//! 1. **Turn and look** (`aim.rs`), while some yaw brings frontier into view that nobody looked at from
+//!    here: what the robot came for, and what the views of this vertex leave open. Turning costs no distance
+//!    and no drift, so all looks of one vertex are exact to each other.
+//! 2. **Go and look** (`viewpoint.rs`). Places that are free in the views of this vertex are scored by the
+//!    area of its frontier that they have in view: across the frontier into the unknown, within the field of
+//!    view, near enough, with nothing in between, and not looked at from there before. The score is that
+//!    area over one metre more than the flight. The best whose straight flight keeps clear of all that is
+//!    solid and of all that was not seen from here is flown to; it becomes a vertex. A flight is judged by
+//!    the views of the vertex where it starts, and by nothing else: they know no drift. Where no place will
+//!    do, the views of vertices nearby are tried in the same way.
+//! 3. **Go elsewhere** (`act.rs`). With no frontier left here, the map names the way along the graph to the
+//!    nearest vertex with some, and the robot repeats it.
+//! 4. **Give up.** Frontier that no place has in view is given up as `Unreachable`; what was looked at from
+//!    `tries` places and is still there, as `NothingNew`. Both hold for the place relative to its vertex, and
+//!    are told.
+//! 5. **Done.** No frontier counts any more: `Complete`.
+//!
+//! Why it ends: turns at one place are bounded by `looks_at_a_place`; flights for one piece of frontier by
+//! `tries`; visits to one vertex by `visits_in_vain`; rounds within a step, because each gives something up.
+//! What ends every run for certain is `max_steps`.
+
+mod act;
+mod aim;
+mod events;
+mod explorer;
+mod memory;
+mod motion;
+mod nearby;
+mod panorama;
+mod params;
+mod viewpoint;
+
+pub use events::{FlightEvent, FlightGiveUp, FlightProbe};
+pub use explorer::{FlightExplorer, FlightReport};
+pub use memory::Target;
+pub use params::FlightParams;

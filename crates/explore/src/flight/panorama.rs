@@ -1,0 +1,131 @@
+//! What was seen from one vertex: its depth images, exact to each other.
+
+use geometry::{Point3, Vector3};
+use pose::Se3;
+use pose::nalgebra::UnitQuaternion;
+use sensing::{Camera, DepthImage};
+
+/// A turn about the vertical, counter-clockwise from above, radians.
+pub(super) fn yaw(angle_rad: f64) -> Se3 {
+    Se3::new(Vector3::zeros(), UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angle_rad))
+}
+
+/// The images of one vertex.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Panorama {
+    looks: Vec<Seen>,
+    /// The yaw of the first image in the frame of the vertex, radians.
+    pub(super) first_yaw_rad: Option<f64>,
+}
+
+/// One image, its depths replaced by what is free for certain between the pixels.
+#[derive(Clone, Debug)]
+struct Seen {
+    vertex_from_camera: Se3,
+    camera: Camera,
+    columns: usize,
+    rows: usize,
+    /// For each square of four pixels the least of their depths; 0 where one of them has no reading.
+    free_m: Vec<f32>,
+}
+
+/// The shape of a camera: what can be in view of a place that nobody was at yet.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Lens {
+    pub(super) body_from_camera: Se3,
+    pub(super) camera: Camera,
+    pub(super) columns: usize,
+    pub(super) rows: usize,
+    /// The farthest reading so far, metres.
+    pub(super) far_m: f64,
+}
+
+impl Panorama {
+    /// Adds an image. Missing readings count as not seen.
+    pub(super) fn add(&mut self, yaw_rad: f64, vertex_from_camera: Se3, image: &DepthImage) {
+        self.first_yaw_rad.get_or_insert(yaw_rad);
+        let (columns, rows) = (image.columns, image.rows());
+        let free = |depth_m: f32| if depth_m.is_finite() && depth_m > 0.0 { depth_m } else { 0.0 };
+        let mut free_m = Vec::with_capacity(columns.saturating_sub(1) * rows.saturating_sub(1));
+        for row in 0..rows.saturating_sub(1) {
+            for column in 0..columns.saturating_sub(1) {
+                let at = row * columns + column;
+                let corners = [at, at + 1, at + columns, at + columns + 1];
+                free_m.push(
+                    corners.map(|at| free(image.depths_m[at])).into_iter().fold(f32::MAX, f32::min),
+                );
+            }
+        }
+        let camera = image.camera;
+        self.looks.push(Seen { vertex_from_camera, camera, columns, rows, free_m });
+    }
+
+    /// Whether nobody looked yet.
+    pub(super) fn is_empty(&self) -> bool {
+        self.looks.is_empty()
+    }
+
+    /// Whether a point is in front of what was seen in its direction, by at least `short_m` of depth.
+    pub(super) fn is_free(&self, point_in_vertex: &Point3, short_m: f64) -> bool {
+        self.looks.iter().any(|seen| {
+            let point = seen.vertex_from_camera.inverse_transform(point_in_vertex);
+            let Some([column, row]) = seen.camera.pixel_of(&point) else { return false };
+            if column < 0.0 || row < 0.0 {
+                return false;
+            }
+            let (column, row) = (column as usize, row as usize);
+            column + 1 < seen.columns
+                && row + 1 < seen.rows
+                && point.z + short_m <= f64::from(seen.free_m[row * (seen.columns - 1) + column])
+        })
+    }
+
+    /// Whether some image has the direction of a point in it, by at least so many pixels from its border.
+    pub(super) fn has_in_view(&self, point_in_vertex: &Point3, border_px: f64) -> bool {
+        self.looks.iter().any(|seen| {
+            let point = seen.vertex_from_camera.inverse_transform(point_in_vertex);
+            in_image(&seen.camera, (seen.columns, seen.rows), &point, border_px)
+        })
+    }
+
+    /// Whether the straight way between two points is free, its last `short_m` left out.
+    pub(super) fn is_way_free(&self, from: &Point3, to: &Point3, short_m: f64) -> bool {
+        let way = to - from;
+        let length_m = way.norm();
+        let steps = ((length_m - short_m) / 0.15).ceil();
+        if steps <= 0.0 {
+            return true;
+        }
+        let step = way * ((length_m - short_m) / length_m / steps);
+        (1..=steps as usize).all(|i| self.is_free(&(from + step * i as f64), 0.0))
+    }
+}
+
+impl Lens {
+    /// Whether a point would be in the image of a robot with that yaw, in the frame of the vertex.
+    pub(super) fn sees(&self, yaw_rad: f64, point_in_vertex: &Point3, border_px: f64) -> bool {
+        let vertex_from_camera = yaw(yaw_rad) * self.body_from_camera;
+        let point = vertex_from_camera.inverse_transform(point_in_vertex);
+        in_image(&self.camera, (self.columns, self.rows), &point, border_px)
+    }
+
+    /// Depth that a point has for a robot which turned to it, metres; `None` where it is too high or too low.
+    pub(super) fn depth_of(&self, by: &Vector3, border_px: f64) -> Option<f64> {
+        let ahead = Point3::new(by.x.hypot(by.y), 0.0, by.z);
+        let point = self.body_from_camera.inverse_transform(&ahead);
+        let [_, row] = self.camera.pixel_of(&point)?;
+        (row >= border_px && row <= self.rows as f64 - 1.0 - border_px).then_some(point.z)
+    }
+}
+
+fn in_image(
+    camera: &Camera,
+    (columns, rows): (usize, usize),
+    point: &Point3,
+    border_px: f64,
+) -> bool {
+    camera.pixel_of(point).is_some_and(|[column, row]| {
+        let within = |x: f64, count: usize| x >= border_px && x <= count as f64 - 1.0 - border_px;
+        within(column, columns) && within(row, rows)
+    })
+}
