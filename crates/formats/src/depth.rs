@@ -30,11 +30,7 @@ pub fn from_levels(image: &GrayImage, units_per_metre: f64) -> Result<DepthPixel
         .enumerate()
         .map(|(at, &level)| {
             let clear = transparent.get(at).is_some_and(|&clear| clear);
-            if level == 0 || level == u16::MAX || clear {
-                f32::NAN
-            } else {
-                metres(f64::from(level), units_per_metre)
-            }
+            if clear { f32::NAN } else { of_level(level, units_per_metre) }
         })
         .collect();
     Ok(DepthPixels { columns: image.columns(), rows: image.rows(), depths_m })
@@ -89,6 +85,15 @@ pub(crate) fn check_scale(units_per_metre: f64) -> Result<(), FormatError> {
         return Ok(());
     }
     Err(FormatError::Scale { found: units_per_metre.to_string() })
+}
+
+/// The depth of one level, metres; NaN for the levels that are no reading.
+pub(crate) fn of_level(level: u16, units_per_metre: f64) -> f32 {
+    if level == 0 || level == u16::MAX {
+        f32::NAN
+    } else {
+        metres(f64::from(level), units_per_metre)
+    }
 }
 
 #[expect(clippy::cast_possible_truncation, reason = "depths are kept as sensors give them")]

@@ -71,6 +71,12 @@ pub enum FormatError {
         /// The scale.
         found: String,
     },
+    /// A log cannot be written.
+    #[error("cannot write the log: {reason}")]
+    Write {
+        /// The writer's own words.
+        reason: String,
+    },
     /// The encoder refused an image.
     #[error("cannot encode the image: {reason}")]
     Encode {

@@ -1,8 +1,14 @@
 #![doc = include_str!("../README.md")]
 
+pub mod bag;
 pub mod depth;
 pub mod depth_file;
+pub mod depth_folder;
+pub mod gzip;
+pub mod laser;
+pub mod log;
 pub mod map_yaml;
+pub mod mcap;
 pub mod mesh;
 pub mod moving_ai;
 pub mod pcd;
@@ -21,6 +27,8 @@ mod gray;
 mod lexer;
 mod lines;
 mod lzf;
+mod messages;
+mod records;
 mod sniff;
 
 pub use cloud::Cloud;
