@@ -20,7 +20,7 @@ pub use error::Maps3dError;
 pub use events::{DepthEvent, Map3dProbe};
 pub use map::{
     FlightClearance, FlightRoute, FrontierPatch, FrontierPoint, Hovering, Known, Look, Map3d,
-    MapTally,
+    MapTally, MapWork,
 };
 pub use pipeline::{Made, ViewOptions, polyhedron, polyhedron_with};
 pub use plan::{Algorithm, Heuristic, Plan, PlanEvent, PlanOptions, Planner, Target};

@@ -114,6 +114,23 @@ pub struct MapTally {
     pub volumes: usize,
 }
 
+/// What a map did so far beside taking looks in; for reports.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct MapWork {
+    /// How often it placed its views anew because poses were corrected.
+    pub corrections: u64,
+    /// Views that it could not take in, or not as it should: each was told by an event.
+    pub refused: u64,
+    /// Tetrahedra of the last time that space was cut into some.
+    pub tetrahedra: usize,
+    /// Paths that were planned through tetrahedra.
+    pub paths: u64,
+    /// Their lengths through centroids, summed, metres.
+    pub paths_m: f64,
+    /// The same after they were shortened, metres.
+    pub shortened_m: f64,
+}
+
 /// How to get to frontier that cannot be gone to from here.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FlightRoute {
@@ -207,6 +224,11 @@ pub trait Map3d {
 
     /// What the map takes a point for, by all views near in the graph.
     fn knows(&self, hovering: &Hovering, point_in_body: &Point3<f64>) -> Known;
+
+    /// What the map did so far; all zero for maps that count nothing.
+    fn work(&self) -> MapWork {
+        MapWork::default()
+    }
 
     /// Memory held, bytes.
     fn bytes(&self) -> usize;
