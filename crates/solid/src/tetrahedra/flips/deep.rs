@@ -1,7 +1,9 @@
 //! Removing an edge after removing what blocks it.
 
 use super::goal::Goal;
+use super::ring::is_flatter;
 use super::state::Work;
+use crate::tetrahedra::mesh::{NONE, Ring};
 
 /// How far a search for flips goes.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -16,50 +18,79 @@ pub(crate) struct Effort {
     pub(crate) flattest: f64,
 }
 
+/// A search: for what, and what is left of its effort.
+struct Search {
+    goal: Goal,
+    effort: Effort,
+    tries: u32,
+}
+
 impl Work {
-    /// Removes the edge `u`, `v`, if need be after removing edges between its ends and its ring, which
-    /// shrinks the ring or clears the view. The sum of all must bring the goal nearer by at least
-    /// `gain`; else everything is undone and nothing is returned.
+    /// The ends of the edge whose edges with ring vertex `i` keep the corner of the ring there from being
+    /// cut off.
+    fn blocking(
+        &self,
+        [u, v]: [u32; 2],
+        ring: &Ring,
+        i: usize,
+        flattest: f64,
+    ) -> impl Iterator<Item = u32> + use<> {
+        let p = &ring.vertices;
+        let n = p.len();
+        let (a, b, c) = (p[(i + n - 1) % n], p[i], p[(i + 1) % n]);
+        let blocks = |tet: [u32; 4]| {
+            let [x, y, z, w] = tet;
+            let volume = self.mesh.orient(x, y, z, w);
+            volume <= 0.0 || is_flatter(&self.mesh, volume, tet, flattest)
+        };
+        let found = [blocks([a, c, b, u]).then_some(u), blocks([a, b, c, v]).then_some(v)];
+        found.into_iter().flatten()
+    }
+
+    /// Removes the edge `u`, `v`, likely one of tetrahedron `guess`, if need be after removing edges between
+    /// its ends and its ring, which shrinks the ring or clears the view. The sum of all must bring the goal
+    /// nearer by at least `gain`; else everything is undone and nothing is returned.
     pub(crate) fn remove_edge(
         &mut self,
-        u: u32,
-        v: u32,
+        guess: u32,
+        [u, v]: [u32; 2],
         goal: Goal,
         gain: i32,
         effort: Effort,
     ) -> Option<i32> {
-        let mut tries = effort.tries;
-        self.remove_below(u, v, goal, gain, effort, effort.depth, &mut tries)
+        let mut search = Search { goal, effort, tries: effort.tries };
+        self.remove_below(guess, [u, v], gain, effort.depth, &mut search)
     }
 
-    #[expect(clippy::too_many_arguments, reason = "one step of a bounded search, private")]
     fn remove_below(
         &mut self,
-        u: u32,
-        v: u32,
-        goal: Goal,
+        guess: u32,
+        [u, v]: [u32; 2],
         gain: i32,
-        effort: Effort,
         depth: u32,
-        tries: &mut u32,
+        search: &mut Search,
     ) -> Option<i32> {
         if self.must.holds_edge(u, v) {
             return None;
         }
         let mark = self.log.len();
         let mut ring = self.rings.pop().unwrap_or_default();
+        let Search { goal, effort, .. } = *search;
+        let mut guess = guess;
         let mut sum = 0;
         let mut done = None;
         for _ in 0..effort.ring {
-            let Some(t) = self.mesh.find_edge(u, v) else {
+            let Some(t) = self.mesh.edge_near(guess, u, v) else {
                 // It went with something else.
                 done = (sum >= gain).then_some(sum);
                 break;
             };
-            if !self.mesh.ring(t, u, v, effort.ring, &mut ring) {
+            if !self.mesh.ring(t, u, v, effort.ring, &mut ring)
+                || ring.vertices.iter().any(|&p| self.must.holds_face(u, v, p))
+            {
                 break;
             }
-            if let Some(less) = self.flip_ring(u, v, &ring, goal, gain - sum, effort.flattest) {
+            if let Some(less) = self.flip_ring([u, v], &ring, goal, gain - sum, effort.flattest) {
                 done = Some(sum + less);
                 break;
             }
@@ -67,18 +98,13 @@ impl Work {
                 break;
             }
             let mut shrunk = false;
-            'spokes: for i in 0..ring.vertices.len() {
-                let p = ring.vertices[i];
-                if self.must.holds_face(u, v, p) {
-                    break;
-                }
-                for end in [u, v] {
-                    if *tries == 0 {
+            'spokes: for (i, (&p, &t)) in ring.vertices.iter().zip(&ring.tets).enumerate() {
+                for end in self.blocking([u, v], &ring, i, effort.flattest) {
+                    if search.tries == 0 {
                         break 'spokes;
                     }
-                    *tries -= 1;
-                    if let Some(less) = self.remove_below(end, p, goal, 0, effort, depth - 1, tries)
-                    {
+                    search.tries -= 1;
+                    if let Some(less) = self.remove_below(t, [end, p], 0, depth - 1, search) {
                         sum += less;
                         shrunk = true;
                         break 'spokes;
@@ -88,6 +114,13 @@ impl Work {
             if !shrunk {
                 break;
             }
+            let still = |t: &&u32| {
+                self.mesh
+                    .tets
+                    .get(**t as usize)
+                    .is_some_and(|t| t.v.contains(&u) && t.v.contains(&v))
+            };
+            guess = ring.tets.iter().find(still).copied().unwrap_or(NONE);
         }
         self.rings.push(ring);
         if done.is_none() {

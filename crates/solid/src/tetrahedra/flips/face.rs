@@ -1,7 +1,7 @@
 //! The 2-3 flip: a face goes, an edge comes.
 
 use super::goal::Goal;
-use super::ring::evenness;
+use super::ring::is_flatter;
 use super::state::Work;
 
 impl Work {
@@ -34,13 +34,17 @@ impl Work {
         for tet in new {
             let [a, b, c, d] = tet;
             let volume = mesh.orient(a, b, c, d);
-            if volume <= 0.0 || evenness(mesh, volume, tet) < flattest {
+            if volume <= 0.0 || is_flatter(mesh, volume, tet, flattest) {
                 return None;
             }
         }
-        let before = goal.of_face(mesh, [x, y, z]);
-        let after = goal.of_edge(mesh, u, v)
-            + [x, y, z].into_iter().map(|w| goal.of_face(mesh, [u, v, w])).sum::<i32>();
+        let known = &mut self.known;
+        let before = known.of_face(mesh, goal, [x, y, z]);
+        if before < gain {
+            return None;
+        }
+        let after = known.of_edge(mesh, goal, u, v)
+            + [x, y, z].into_iter().map(|w| known.of_face(mesh, goal, [u, v, w])).sum::<i32>();
         if before - after < gain {
             return None;
         }

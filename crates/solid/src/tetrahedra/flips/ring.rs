@@ -1,6 +1,7 @@
 //! Removing an edge by triangulating the ring round it.
 
 use super::goal::Goal;
+use super::known::Known;
 use super::state::Work;
 use crate::tetrahedra::mesh::{Mesh, Ring};
 
@@ -10,142 +11,175 @@ const NEVER: i32 = i32::MAX / 4;
 /// Buffers of the triangulation of a ring.
 #[derive(Clone, Debug, Default)]
 pub(crate) struct Table {
-    cost: Vec<i32>,
-    split: Vec<u32>,
+    /// For each triangle of ring vertices, 0 where it was not looked at, 1 where it makes no positive
+    /// tetrahedra, else 2 and how many of its two tetrahedra are flat.
+    spans: Vec<u8>,
+    /// For each two ring vertices what the best triangulation between them costs, and the vertex at its
+    /// edge.
+    cost: Vec<(i32, u32)>,
     stack: Vec<(usize, usize)>,
     new: Vec<[u32; 4]>,
 }
 
 /// How much one thing in the way weighs against flat tetrahedra.
 const WEIGHT: i32 = 1 << 12;
-
-/// How many flat tetrahedra, of the two with the ends of the edge, the triangle of ring vertices `a`,
-/// `b`, `c` makes; `None` where one of them is not positive, or flatter than `flattest`.
-#[inline]
-fn spans(mesh: &Mesh, u: u32, v: u32, [a, b, c]: [u32; 3], flattest: f64) -> Option<i32> {
-    let above = mesh.orient(a, b, c, v);
-    if above <= 0.0 {
-        return None;
-    }
-    let below = mesh.orient(a, c, b, u);
-    if below <= 0.0 {
-        return None;
-    }
-    let (above, below) = (evenness(mesh, above, [a, b, c, v]), evenness(mesh, below, [a, b, c, u]));
-    if above < flattest || below < flattest {
-        return None;
-    }
-    Some(i32::from(above < FLAT) + i32::from(below < FLAT))
-}
+/// The triangle makes a tetrahedron that is not positive, or too flat.
+const NO: u8 = 1;
+/// It makes good ones; plus how many of them are flat.
+const YES: u8 = 2;
 
 /// A tetrahedron that is less even than this is nearly flat: its corners were meant to lie in one plane.
 pub(crate) const FLAT: f64 = 1e-10;
 
-/// The volume of a tetrahedron relative to that of three edges of its lengths at right angles, where
-/// `volume` is six times the first: from 1 down to 0 for a flat one.
+/// The squares of the lengths of three edges at corner `d`, multiplied.
 #[inline]
-pub(crate) fn evenness(mesh: &Mesh, volume: f64, [a, b, c, d]: [u32; 4]) -> f64 {
+fn squares(mesh: &Mesh, [a, b, c, d]: [u32; 4]) -> f64 {
     let from = mesh.point(d);
     let square = |v: u32| {
         let p = mesh.point(v);
         let (x, y, z) = (p[0] - from[0], p[1] - from[1], p[2] - from[2]);
         x * x + y * y + z * z
     };
-    volume / (square(a) * square(b) * square(c)).sqrt()
+    square(a) * square(b) * square(c)
 }
 
-impl Work {
-    /// Whether the edge `u`, `v` may go, with the faces of its ring.
-    fn may_remove(&self, u: u32, v: u32, ring: &Ring) -> bool {
-        let held = self.must.holds_edge(u, v)
-            || (self.must.guard_facets
-                && ring.vertices.iter().any(|&p| self.must.holds_face(u, v, p)));
-        !held
+/// The volume of a tetrahedron relative to that of three edges of its lengths at right angles, where
+/// `volume` is six times the first: from 1 down to 0 for a flat one.
+#[inline]
+pub(crate) fn evenness(mesh: &Mesh, volume: f64, tet: [u32; 4]) -> f64 {
+    volume / squares(mesh, tet).sqrt()
+}
+
+/// Whether the [`evenness`] is less than `bound`.
+#[inline]
+pub(super) fn is_flatter(mesh: &Mesh, volume: f64, tet: [u32; 4], bound: f64) -> bool {
+    volume * volume < bound * bound * squares(mesh, tet)
+}
+
+/// A ring with the ends of its edge.
+#[derive(Clone, Copy)]
+struct Around<'a> {
+    mesh: &'a Mesh,
+    ends: [u32; 2],
+    ring: &'a [u32],
+    flattest: f64,
+}
+
+impl Around<'_> {
+    /// What the triangle of three ring vertices makes with the ends of the edge; see [`Table::spans`].
+    fn spans(&self, [i, k, j]: [usize; 3]) -> u8 {
+        let [u, v] = self.ends;
+        let [a, b, c] = [self.ring[i], self.ring[k], self.ring[j]];
+        let above = self.mesh.orient(a, b, c, v);
+        if above <= 0.0 {
+            return NO;
+        }
+        let below = self.mesh.orient(a, c, b, u);
+        if below <= 0.0 {
+            return NO;
+        }
+        let flat = |bound: f64| {
+            u8::from(is_flatter(self.mesh, above, [a, b, c, v], bound))
+                + u8::from(is_flatter(self.mesh, below, [a, b, c, u], bound))
+        };
+        if self.flattest >= FLAT {
+            return if flat(self.flattest) > 0 { NO } else { YES };
+        }
+        if flat(self.flattest) > 0 { NO } else { YES + flat(FLAT) }
     }
 
-    /// Removes the edge of `ring`, between `u` and `v`, where some triangulation of the ring makes only
-    /// positive tetrahedra and brings the goal nearer by at least `gain`: of all triangulations the one
-    /// that leaves least in the way (\[FO97\] for the dynamic programme, \[Kli80\]). Returns by how much
-    /// less is in the way.
-    ///
-    /// This is the 3-2 and the 4-4 flip, and all n-to-m flips of larger rings at once. O(n^3) exact
-    /// tests for a ring of n.
-    pub(crate) fn flip_ring(
-        &mut self,
-        u: u32,
-        v: u32,
-        ring: &Ring,
-        goal: Goal,
-        gain: i32,
-        flattest: f64,
-    ) -> Option<i32> {
-        let n = ring.vertices.len();
-        if n < 3 || !self.may_remove(u, v, ring) {
-            return None;
+    /// Whether some triangulation of the ring makes good tetrahedra only; fills in `spans`.
+    fn is_fertile(&self, table: &mut Table) -> bool {
+        let n = self.ring.len();
+        table.spans.clear();
+        table.spans.resize(n * n * n, 0);
+        if n == 3 {
+            let found = self.spans([0, 1, 2]);
+            table.spans[n + 2] = found;
+            return found != NO;
         }
-        let mut table = std::mem::take(&mut self.table);
-        let done = self.best_ring(u, v, ring, goal, gain, flattest, &mut table);
-        self.table = table;
-        done
-    }
-
-    #[expect(clippy::too_many_arguments, reason = "one step of a flip, private")]
-    fn best_ring(
-        &mut self,
-        u: u32,
-        v: u32,
-        ring: &Ring,
-        goal: Goal,
-        gain: i32,
-        flattest: f64,
-        table: &mut Table,
-    ) -> Option<i32> {
-        let mesh = &self.mesh;
-        let p = &ring.vertices;
-        let n = p.len();
-        let before = goal.of_edge(mesh, u, v)
-            + p.iter().map(|&w| goal.of_face(mesh, [u, v, w])).sum::<i32>();
-        if before < gain {
-            return None;
+        // Of two ears that have no edge in common one is among these.
+        let mut ears = 0;
+        for i in 0..n - 2 {
+            let found = self.spans([i, i + 1, i + 2]);
+            table.spans[(i * n + i + 1) * n + i + 2] = found;
+            ears += usize::from(found != NO);
         }
-        let most = (before - gain) * WEIGHT + WEIGHT - 1;
+        if ears == 0 {
+            return false;
+        }
         table.cost.clear();
-        table.cost.resize(n * n, NEVER);
-        table.split.clear();
-        table.split.resize(n * n, 0);
+        table.cost.resize(n * n, (NEVER, 0));
         for i in 0..n - 1 {
-            table.cost[i * n + i + 1] = 0;
+            table.cost[i * n + i + 1].0 = 0;
+        }
+        for width in 2..n {
+            for i in 0..n - width {
+                let j = i + width;
+                let found = (i + 1..j).any(|k| {
+                    if table.cost[i * n + k].0 == NEVER || table.cost[k * n + j].0 == NEVER {
+                        return false;
+                    }
+                    let known = &mut table.spans[(i * n + k) * n + j];
+                    if *known == 0 {
+                        *known = self.spans([i, k, j]);
+                    }
+                    *known != NO
+                });
+                table.cost[i * n + j].0 = if found { 0 } else { NEVER };
+            }
+        }
+        table.cost[n - 1].0 == 0
+    }
+
+    /// The least that a triangulation of a fertile ring costs, as far as it is not more than `most`; how it
+    /// runs is in the table.
+    fn cheapest(&self, goal: Goal, most: i32, known: &mut Known, table: &mut Table) -> i32 {
+        let (mesh, p, n) = (self.mesh, self.ring, self.ring.len());
+        let [u, v] = self.ends;
+        table.cost.clear();
+        table.cost.resize(n * n, (NEVER, 0));
+        for i in 0..n - 1 {
+            table.cost[i * n + i + 1].0 = 0;
         }
         for width in 2..n {
             for i in 0..n - width {
                 let j = i + width;
                 let (mut best, mut at) = (NEVER, 0);
                 for k in i + 1..j {
-                    let below = table.cost[i * n + k] + table.cost[k * n + j];
+                    let below = table.cost[i * n + k].0 + table.cost[k * n + j].0;
                     if below >= best || below > most {
                         continue;
                     }
-                    let face = [p[i], p[k], p[j]];
-                    let Some(flat) = spans(mesh, u, v, face, flattest) else { continue };
-                    let cost = below + flat + WEIGHT * goal.of_face(mesh, face);
+                    let spans = &mut table.spans[(i * n + k) * n + j];
+                    if *spans == 0 {
+                        *spans = self.spans([i, k, j]);
+                    }
+                    if *spans == NO {
+                        continue;
+                    }
+                    let flat = i32::from(*spans - YES);
+                    let cost =
+                        below + flat + WEIGHT * known.of_face(mesh, goal, [p[i], p[k], p[j]]);
                     if cost < best {
                         (best, at) = (cost, k);
                     }
                 }
-                if best < NEVER && width < n - 1 {
+                if best <= most && width < n - 1 {
                     best += WEIGHT
-                        * (goal.of_edge(mesh, p[i], p[j])
-                            + goal.of_face(mesh, [u, p[i], p[j]])
-                            + goal.of_face(mesh, [v, p[i], p[j]]));
+                        * (known.of_edge(mesh, goal, p[i], p[j])
+                            + known.of_face(mesh, goal, [u, p[i], p[j]])
+                            + known.of_face(mesh, goal, [v, p[i], p[j]]));
                 }
-                table.cost[i * n + j] = best;
-                table.split[i * n + j] = at as u32;
+                table.cost[i * n + j] = (best, at as u32);
             }
         }
-        let after = table.cost[n - 1];
-        if after > most {
-            return None;
-        }
+        table.cost[n - 1].0
+    }
+
+    /// The tetrahedra of the triangulation found.
+    fn fill(&self, table: &mut Table) {
+        let (p, n, [u, v]) = (self.ring, self.ring.len(), self.ends);
         table.new.clear();
         table.stack.clear();
         table.stack.push((0, n - 1));
@@ -153,12 +187,61 @@ impl Work {
             if j - i < 2 {
                 continue;
             }
-            let k = table.split[i * n + j] as usize;
+            let k = table.cost[i * n + j].1 as usize;
             table.new.push([p[i], p[k], p[j], v]);
             table.new.push([p[i], p[j], p[k], u]);
             table.stack.push((i, k));
             table.stack.push((k, j));
         }
-        self.exchange(&ring.tets, &table.new).then_some(before - after / WEIGHT)
+    }
+}
+
+impl Work {
+    /// Removes the edge of `ring`, which may go with its faces, where some triangulation of the ring makes
+    /// only positive tetrahedra and brings the goal nearer by at least `gain`: of all triangulations the one
+    /// that leaves least in the way (\[FO97\] for the dynamic programme, \[Kli80\]). Returns by how much
+    /// less is in the way.
+    ///
+    /// This is the 3-2 and the 4-4 flip, and all n-to-m flips of larger rings at once. O(n^3) exact
+    /// tests for a ring of n, and O(n) where none of its corners can be cut off, or where the ring was
+    /// looked at before.
+    pub(super) fn flip_ring(
+        &mut self,
+        ends: [u32; 2],
+        ring: &Ring,
+        goal: Goal,
+        gain: i32,
+        flattest: f64,
+    ) -> Option<i32> {
+        let [u, v] = ends;
+        if ring.vertices.len() < 3 {
+            return None;
+        }
+        let Self { mesh, known, table, .. } = self;
+        let crossed: i32 =
+            ring.vertices.iter().map(|&w| known.of_face(mesh, goal, [u, v, w])).sum();
+        let before = crossed + known.of_edge(mesh, goal, u, v);
+        if before < gain {
+            return None;
+        }
+        let name = known.name(u, v, ring, flattest);
+        if known.is_barren(name) {
+            return None;
+        }
+        let around = Around { mesh, ends, ring: &ring.vertices, flattest };
+        if !around.is_fertile(table) {
+            known.note_barren(name);
+            return None;
+        }
+        let most = (before - gain) * WEIGHT + WEIGHT - 1;
+        let after = around.cheapest(goal, most, known, table);
+        if after > most {
+            return None;
+        }
+        around.fill(table);
+        let table = std::mem::take(&mut self.table);
+        let done = self.exchange(&ring.tets, &table.new).then_some(before - after / WEIGHT);
+        self.table = table;
+        done
     }
 }

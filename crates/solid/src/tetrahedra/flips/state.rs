@@ -18,6 +18,8 @@ pub(crate) struct Work {
     pub(crate) splits: Vec<crate::tetrahedra::steiner::Split>,
     /// Buffers of the edge removal.
     pub(crate) table: super::ring::Table,
+    /// What flips found out before.
+    pub(crate) known: super::known::Known,
     /// The search over small regions, between uses.
     pub(crate) search: crate::tetrahedra::reconnect::Search,
     /// Where the last search would have needed more room: the tetrahedra there.
@@ -33,6 +35,15 @@ impl Work {
             if let Some(exchange) = self.log.pop() {
                 self.mesh.undo(&exchange);
             }
+        }
+    }
+
+    /// Takes back the points since there were `count`; no tetrahedron has them any more.
+    pub(crate) fn drop_points(&mut self, count: usize) {
+        if self.mesh.points.len() > count {
+            self.mesh.points.truncate(count);
+            self.mesh.at.truncate(count);
+            self.known.forget();
         }
     }
 

@@ -1,7 +1,7 @@
 //! What lies round an edge or a vertex.
 
 use super::complex::Mesh;
-use super::tet::{GHOST, NONE};
+use super::tet::{GHOST, NONE, Tet};
 
 /// The tetrahedra round an edge.
 #[derive(Clone, Debug, Default)]
@@ -17,6 +17,15 @@ impl Mesh {
     /// A tetrahedron that has the edge from `u` to `v`, if there is one. O(degree of `u`).
     pub(crate) fn find_edge(&mut self, u: u32, v: u32) -> Option<u32> {
         self.search_star(u, |mesh, t| mesh.tet(t).index_of(v).is_some())
+    }
+
+    /// [`find_edge`](Self::find_edge), where it is likely an edge of tetrahedron `guess`.
+    pub(crate) fn edge_near(&mut self, guess: u32, u: u32, v: u32) -> Option<u32> {
+        let has_both = |tet: &Tet| tet.v.contains(&u) && tet.v.contains(&v);
+        match self.tets.get(guess as usize) {
+            Some(tet) if has_both(tet) => Some(guess),
+            _ => self.find_edge(u, v),
+        }
     }
 
     /// A tetrahedron and the index in it of the face `a`, `b`, `c`, if there is one.

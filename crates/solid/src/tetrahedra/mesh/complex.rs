@@ -18,6 +18,8 @@ pub(crate) struct Mesh {
     pub(crate) stamp: Vec<u32>,
     /// Scratch of searches.
     pub(crate) queue: Vec<u32>,
+    /// Scratch of exchanges.
+    pub(super) halves: Vec<u128>,
     /// The newest epoch.
     pub(crate) epoch: u32,
 }

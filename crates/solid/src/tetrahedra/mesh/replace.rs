@@ -18,13 +18,20 @@ pub(crate) struct Exchange {
     freed: usize,
 }
 
-/// A face of the region, by which halves are matched.
-#[derive(Clone, Copy)]
-struct Half {
-    key: [u32; 3],
-    /// Four times the tetrahedron plus the face; for new tetrahedra the place in the list.
-    code: u32,
-    is_new: bool,
+/// A face of the region, by which halves are matched: its corners, ascending, then its number among the
+/// faces outside, in the order found, or among those of the new tetrahedra, of which the lowest bit tells.
+type Half = u128;
+
+#[inline]
+fn half(face: [u32; 3], number: usize, is_new: bool) -> Half {
+    let [a, b, c] = sorted3(face).map(u128::from);
+    (a << 96) | (b << 64) | (c << 32) | ((number as u128) << 1) | u128::from(is_new)
+}
+
+/// Whether two halves are of one face.
+#[inline]
+fn match_up(a: Half, b: Half) -> bool {
+    (a ^ b) >> 32 == 0
 }
 
 impl Mesh {
@@ -34,7 +41,21 @@ impl Mesh {
     /// The caller sees to it that the new ones are positive. That they then fill the same space, once,
     /// follows: the surface is the same, and each has its volume counted positively. O(m log m).
     pub(crate) fn exchange(&mut self, old: &[u32], new: &[[u32; 4]]) -> Option<Exchange> {
-        let mut halves: Vec<Half> = Vec::with_capacity(4 * (old.len() + new.len()));
+        let mut halves = std::mem::take(&mut self.halves);
+        let log = self.exchange_by(old, new, &mut halves);
+        self.halves = halves;
+        log
+    }
+
+    fn exchange_by(
+        &mut self,
+        old: &[u32],
+        new: &[[u32; 4]],
+        halves: &mut Vec<Half>,
+    ) -> Option<Exchange> {
+        halves.clear();
+        let mut outside = std::mem::take(&mut self.queue);
+        outside.clear();
         let epoch = self.next_epoch();
         for &t in old {
             self.stamp[t as usize] = epoch;
@@ -44,30 +65,26 @@ impl Mesh {
             for f in 0..4 {
                 let code = tet.n[f];
                 if self.stamp[(code >> 2) as usize] != epoch {
-                    halves.push(Half { key: sorted3(tet.face(f)), code, is_new: false });
+                    halves.push(half(tet.face(f), outside.len(), false));
+                    outside.push(code);
                 }
             }
         }
         for (i, &v) in new.iter().enumerate() {
             let tet = Tet { v, n: [0; 4] };
             for f in 0..4 {
-                halves.push(Half {
-                    key: sorted3(tet.face(f)),
-                    code: (4 * i + f) as u32,
-                    is_new: true,
-                });
+                halves.push(half(tet.face(f), 4 * i + f, true));
             }
         }
-        halves.sort_unstable_by_key(|half| (half.key, half.is_new, half.code));
-        if !halves.len().is_multiple_of(2) {
+        halves.sort_unstable();
+        let fits = halves.len().is_multiple_of(2)
+            && halves
+                .chunks_exact(2)
+                .all(|pair| match_up(pair[0], pair[1]) && (pair[0] | pair[1]) & 1 == 1)
+            && halves.windows(3).all(|three| !match_up(three[0], three[2]));
+        if !fits {
+            self.queue = outside;
             return None;
-        }
-        for (i, pair) in halves.chunks_exact(2).enumerate() {
-            let alone = pair[0].key != pair[1].key || !pair[1].is_new;
-            let third = halves.get(2 * i + 2).is_some_and(|next| next.key == pair[0].key);
-            if alone || third {
-                return None;
-            }
         }
 
         let mut log = Exchange { slots_before: self.tets.len(), ..Exchange::default() };
@@ -96,16 +113,18 @@ impl Mesh {
             }
             log.new.push((slot, v));
         }
-        let code_of = |half: &Half| {
-            if half.is_new {
-                4 * slots[(half.code >> 2) as usize] + (half.code & 3)
+        let code_of = |half: Half| {
+            let number = (half as u32) >> 1;
+            if half & 1 == 1 {
+                4 * slots[(number >> 2) as usize] + (number & 3)
             } else {
-                half.code
+                outside[number as usize]
             }
         };
         for pair in halves.chunks_exact(2) {
-            self.join(code_of(&pair[0]), code_of(&pair[1]));
+            self.join(code_of(pair[0]), code_of(pair[1]));
         }
+        self.queue = outside;
         Some(log)
     }
 

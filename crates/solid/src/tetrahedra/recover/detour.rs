@@ -21,8 +21,7 @@ impl Work {
         let done = self.detour(a, b, effort, turn, MOST_DEPTH);
         if !done {
             self.undo_to(mark);
-            self.mesh.points.truncate(points);
-            self.mesh.at.truncate(points);
+            self.drop_points(points);
         }
         done
     }

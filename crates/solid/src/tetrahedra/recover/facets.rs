@@ -20,8 +20,8 @@ impl Work {
                 match self.passing_at(a, b, c) {
                     Beside::Present => return Attempt::Done,
                     Beside::Unknown => {}
-                    Beside::Passed(u, v) => {
-                        nearer = self.remove_edge(u, v, goal, 1, effort).is_some();
+                    Beside::Passed(t, u, v) => {
+                        nearer = self.remove_edge(t, [u, v], goal, 1, effort).is_some();
                     }
                 }
                 if nearer {
@@ -32,7 +32,7 @@ impl Work {
                 let passing = self.passing(corners);
                 nearer = passing
                     .into_iter()
-                    .any(|(_, u, v)| self.remove_edge(u, v, goal, 1, effort).is_some());
+                    .any(|(t, u, v)| self.remove_edge(t, [u, v], goal, 1, effort).is_some());
             }
             if !nearer {
                 return Attempt::Stuck;
@@ -55,7 +55,7 @@ impl Work {
         for i in 0..n {
             let (p, q) = (ring.vertices[i], ring.vertices[(i + 1) % n]);
             if meets(&self.mesh, [p, q], [a, b, c]) != Meets::Not {
-                return Beside::Passed(p, q);
+                return Beside::Passed(ring.tets[i], p, q);
             }
         }
         Beside::Unknown
@@ -115,8 +115,8 @@ impl Work {
 enum Beside {
     /// Its third corner: it is a face.
     Present,
-    /// An edge that passes it.
-    Passed(u32, u32),
+    /// An edge of a tetrahedron, which passes it.
+    Passed(u32, u32, u32),
     /// Nothing that could be told.
     Unknown,
 }

@@ -25,8 +25,7 @@ impl Work {
         if self.star_in(vertex, first, true) || self.star_in(vertex, first, false) {
             return Some(vertex);
         }
-        self.mesh.points.pop();
-        self.mesh.at.pop();
+        self.drop_points(vertex as usize);
         None
     }
 
@@ -78,23 +77,18 @@ impl Work {
     /// Whether exchanging `old` for `new` would lose an edge that must stay, or a vertex other than
     /// `lost`.
     pub(super) fn tears(&self, old: &[u32], new: &[[u32; 4]], lost: Option<u32>) -> bool {
-        let mut kept = Vec::with_capacity(6 * new.len());
-        let mut vertices = Vec::with_capacity(4 * new.len());
-        for tet in new {
-            vertices.extend_from_slice(tet);
-            for i in 0..4 {
-                kept.extend((i + 1..4).map(|j| [tet[i].min(tet[j]), tet[i].max(tet[j])]));
-            }
-        }
-        kept.sort_unstable();
-        vertices.sort_unstable();
+        let mut seen: Vec<u32> = lost.into_iter().collect();
         old.iter().any(|&t| {
             let v = self.mesh.tet(t).v;
             (0..4).any(|i| {
-                (Some(v[i]) != lost && vertices.binary_search(&v[i]).is_err())
+                let fresh = !seen.contains(&v[i]);
+                if fresh {
+                    seen.push(v[i]);
+                }
+                (fresh && !new.iter().any(|tet| tet.contains(&v[i])))
                     || (i + 1..4).any(|j| {
-                        let edge = [v[i].min(v[j]), v[i].max(v[j])];
-                        kept.binary_search(&edge).is_err() && self.must.holds_edge(v[i], v[j])
+                        self.must.holds_edge(v[i], v[j])
+                            && !new.iter().any(|tet| tet.contains(&v[i]) && tet.contains(&v[j]))
                     })
             })
         })

@@ -19,8 +19,9 @@ impl Work {
         for _ in 0..MOST_ROUNDS {
             let mut shed = false;
             for v in self.around(s) {
-                shed |= self.mesh.find_edge(s, v).is_some()
-                    && self.remove_edge(s, v, Goal::Gone, 0, effort).is_some();
+                let found = self.mesh.find_edge(s, v);
+                shed |= found
+                    .is_some_and(|t| self.remove_edge(t, [s, v], Goal::Gone, 0, effort).is_some());
             }
             if !shed {
                 break;

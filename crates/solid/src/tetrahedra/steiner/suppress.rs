@@ -105,8 +105,7 @@ impl Work {
         for sector in sectors {
             let mut hole = sector.clone();
             let Some(place) = self.make_room(s, &mut hole, &old) else {
-                self.mesh.points.truncate(points);
-                self.mesh.at.truncate(points);
+                self.drop_points(points);
                 return false;
             };
             old.extend(hole.own.iter().filter(|t| !sector.own.contains(t)));
@@ -114,8 +113,7 @@ impl Work {
             new.extend(hole.filled(vertex));
         }
         if self.tears(&old, &new, Some(s)) || !self.exchange(&old, &new) {
-            self.mesh.points.truncate(points);
-            self.mesh.at.truncate(points);
+            self.drop_points(points);
             return false;
         }
         true
