@@ -3,6 +3,7 @@
 pub mod command;
 pub mod config;
 mod files;
+pub mod replay;
 mod report;
 pub mod run;
 mod stopwatch;

@@ -66,6 +66,22 @@ pub(super) enum Command {
             driftlab run configs/maps/building.toml --world floor.yaml --json"
     )]
     Run(RunArgs),
+    /// Feed the maps of a config with a log of a real robot
+    #[command(
+        long_about = "Feed the maps of a config with a log of a real robot.\n\n\
+            LOG is an MCAP file or a bag of ROS 1 with laser scans and odometry, a text log of CARMEN, or a \
+            JSON map of scans, packed with gzip or not. Keyframes, steps and recognised places are made from \
+            the scans; nothing else is known. A log of an exported run holds its pose graph, which is then \
+            taken as it is.\n\n\
+            The folder holds what a run's does, and odometry.tum, tracked.tum and optimised.tum (the sensor at \
+            every scan), graph.g2o, and closures.txt, which --places takes.",
+        after_help = "Examples:\n  \
+            driftlab replay my.log configs/logs/laser.toml --out recordings/mine\n  \
+            driftlab replay drive.mcap configs/logs/laser.toml --set 'replay.scan_topic=\"/front\"'\n  \
+            driftlab replay intel.log configs/logs/laser.toml --relations intel.relations --json\n  \
+            driftlab replay my.log configs/logs/laser.toml --places seen.txt"
+    )]
+    Replay(ReplayArgs),
     /// Do the same work over many inputs and leave a table
     #[command(
         long_about = "Do the same work over many inputs and leave a table.\n\n\
@@ -145,6 +161,40 @@ pub(super) struct RunArgs {
     /// Replace the run that is in the folder already
     #[arg(long)]
     pub(super) force: bool,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct ReplayArgs {
+    /// The log
+    pub(super) log: PathBuf,
+    /// The experiment: a TOML file with a table [replay]; its world is not asked
+    pub(super) config: PathBuf,
+    /// Set one value of the config, as a TOML value; may be given again
+    #[arg(long = "set", value_name = "PATH=VALUE")]
+    pub(super) sets: Vec<String>,
+    /// Hold the result against published relative poses: lines `t1 t2 x y z roll pitch yaw`
+    #[arg(long, value_name = "FILE")]
+    pub(super) relations: Option<PathBuf>,
+    /// Take recognised places from here instead of from the scans
+    ///
+    /// A file with lines `t_known t_current x y theta [sigma_m sigma_deg]`: the sensor at the later time in
+    /// its frame at the earlier one. Or a topic of the log, with transforms between frames whose names
+    /// end in the two stamps, or with edges between keyframes.
+    #[arg(long, value_name = "FILE|/TOPIC")]
+    pub(super) places: Option<PathBuf>,
+    /// Folder of the results [default: recordings/NAME]
+    #[arg(long, value_name = "DIR")]
+    pub(super) out: Option<PathBuf>,
+    /// Replace the run that is in the folder already
+    #[arg(long)]
+    pub(super) force: bool,
+}
+
+impl ReplayArgs {
+    /// The config and what is laid over it.
+    pub(super) fn input(&self) -> ConfigInput {
+        ConfigInput { config: self.config.clone(), sets: self.sets.clone(), world: None }
+    }
 }
 
 #[derive(Debug, Args)]

@@ -3,6 +3,7 @@
 use std::fmt;
 
 use crate::config::ConfigError;
+use crate::replay::ReplayError;
 use crate::run::FolderError;
 
 /// A command's failure.
@@ -38,6 +39,12 @@ impl fmt::Display for Failure {
 impl From<ConfigError> for Failure {
     fn from(error: ConfigError) -> Self {
         Self::Input(error.into())
+    }
+}
+
+impl From<ReplayError> for Failure {
+    fn from(error: ReplayError) -> Self {
+        if error.is_input() { Self::Input(error.into()) } else { Self::Work(error.into()) }
     }
 }
 

@@ -13,6 +13,7 @@ mod inspect;
 mod mesh;
 mod out;
 mod progress;
+mod replay;
 mod report;
 mod run;
 mod sweep;
@@ -32,6 +33,7 @@ pub fn main() -> ExitCode {
     let out = Out::new(&cli.global);
     let result = match &cli.command {
         Command::Run(args) => run::run(args, &out),
+        Command::Replay(args) => replay::replay(args, &out),
         Command::Sweep(args) => sweep::sweep(args, &out),
         Command::Report(args) => report::report(args, &out),
         Command::Graph(args) => graph::graph(args, &out),

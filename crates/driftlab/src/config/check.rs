@@ -114,7 +114,7 @@ fn between_keys(config: &Config, faults: &mut Vec<Fault>) {
     if !is_folder_name(&config.name) {
         faults.push(fault("name", format!("{:?}", config.name), FOLDER_NAME.into()));
     }
-    if config.world.is_none() {
+    if config.world.is_none() && config.replay.is_none() {
         let kinds = properties_of("world").join(", ");
         faults.push(fault("", "no world".into(), format!("exactly one table of {kinds}")));
     }

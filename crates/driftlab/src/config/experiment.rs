@@ -4,7 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Compare, Maps, Metrics, Odometry, Places, Planner, Record, Robot, RunSweep, Sensor, World,
+    Compare, Maps, Metrics, Odometry, Places, Planner, Record, Replay, Robot, RunSweep, Sensor,
+    World,
 };
 
 /// One experiment: a place, a robot in it, and the maps that it builds.
@@ -51,6 +52,9 @@ pub struct Config {
     pub metrics: Metrics,
     /// What the recording holds.
     pub record: Record,
+    /// How `driftlab replay` takes a log; nobody else asks. A config with this table needs no world.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub replay: Option<Replay>,
     /// What `driftlab sweep` varies; nobody else asks.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sweep: Option<RunSweep>,
@@ -75,6 +79,7 @@ impl Default for Config {
             compare: Compare::default(),
             metrics: Metrics::default(),
             record: Record::default(),
+            replay: None,
             sweep: None,
         }
     }

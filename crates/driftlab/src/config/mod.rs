@@ -9,6 +9,7 @@
 //! |---|---|
 //! | `experiment`, `world`, `generators`, `robot`, `maps`, `planner`, `report` | the types and their defaults |
 //! | `to_params` | the same as the algorithms want it, in radians |
+//! | `replay` | how a log is replayed |
 //! | `load` | file and command line to a checked config |
 //! | `source`, `document` | texts, spans, merging |
 //! | `schema`, `limits`, `check`, `reach` | ranges, from the types' attributes and units; rules between keys |
@@ -34,6 +35,7 @@ mod load;
 mod maps;
 mod planner;
 mod reach;
+mod replay;
 mod report;
 mod robot;
 mod schema;
@@ -59,6 +61,7 @@ pub use maps::{
     Poses, RelativeMap, Twisted,
 };
 pub use planner::{Planner, RapidPlanner, SurveyPlanner};
+pub use replay::{GraphSource, Replay};
 pub use report::{Compare, Every, Level, Metrics, Record, Rule};
 pub use robot::{Odometry, Places, Robot, Sensor};
 pub use schema::{meaning, schema};

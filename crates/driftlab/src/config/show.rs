@@ -10,7 +10,7 @@ use super::schema::{Property, is_variant_table, properties, property_at, resolve
 use super::{
     ActiveAreaMap, CavesWorld, Config, CorrectedPolygonsMap, CorridorWorld, ExtendedMap,
     GridCorrectedMap, GridMap, ImageWorld, Loaded, MapServerWorld, MazeWorld, MovingAiWorld,
-    Origin, PaperWorld, PillarsWorld, PolygonsWorld, RapidPlanner, RelativeMap, RoomsWorld,
+    Origin, PaperWorld, PillarsWorld, PolygonsWorld, RapidPlanner, RelativeMap, Replay, RoomsWorld,
     RunSweep, Start, SurveyPlanner, ThesisWorld,
 };
 
@@ -172,6 +172,7 @@ fn optional_tables() -> Vec<(&'static str, bool, toml::Table)> {
         ("map.extended", false, table_of(&ExtendedMap::default())),
         ("planner.rapid", true, table_of(&RapidPlanner::default())),
         ("planner.survey", false, table_of(&SurveyPlanner::default())),
+        ("replay", false, table_of(&Replay::default())),
         (
             "sweep",
             false,

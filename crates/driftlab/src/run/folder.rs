@@ -18,8 +18,30 @@ pub mod names {
     pub const TIMING: &str = "timing.json";
     /// Version, commit, seed, inputs, how it ended.
     pub const PROVENANCE: &str = "provenance.toml";
+    /// Of a replay: the trajectory by the log's odometry, in TUM's form.
+    pub const BY_ODOMETRY: &str = "odometry.tum";
+    /// Of a replay: the trajectory by steps that scans corrected.
+    pub const TRACKED: &str = "tracked.tum";
+    /// Of a replay: the trajectory as everything agrees best.
+    pub const OPTIMISED: &str = "optimised.tum";
+    /// Of a replay: the pose graph, in g2o's form.
+    pub const GRAPH: &str = "graph.g2o";
+    /// Of a replay: the accepted closures.
+    pub const CLOSURES: &str = "closures.txt";
     /// All of them.
-    pub const ALL: [&str; 6] = [RECORDING, CONFIG, METRICS, STEPS, TIMING, PROVENANCE];
+    pub const ALL: [&str; 11] = [
+        RECORDING,
+        CONFIG,
+        METRICS,
+        STEPS,
+        TIMING,
+        PROVENANCE,
+        BY_ODOMETRY,
+        TRACKED,
+        OPTIMISED,
+        GRAPH,
+        CLOSURES,
+    ];
 }
 
 /// Why a folder cannot take a run.

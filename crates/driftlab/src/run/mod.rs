@@ -33,11 +33,14 @@ pub use folder::{FolderError, RunFolder, names};
 pub use place::{Place, build_place};
 pub use provenance::{GIT_HASH, Input, Provenance, VERSION};
 pub use record::start_recording;
+pub(crate) use report::as_object;
 pub use report::{
     CorrectionTiming, MapMetrics, MapTiming, MetricsReport, TimingReport, quantile, to_file,
     to_json,
 };
 pub use session::{Outcome, RunError, files, run_experiment};
 pub use sides::AtWork;
+pub(crate) use sides::{TruePoses, map_of};
 pub use steps::{StepRow, to_parquet};
+pub(crate) use timed::TimedProbe;
 pub use watch::{StepSeen, Watch};

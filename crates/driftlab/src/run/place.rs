@@ -45,7 +45,12 @@ pub fn build_place(loaded: &Loaded) -> Result<Place, ConfigError> {
     let config = loaded.anchored();
     let Some(world) = &config.world else {
         // Loading refuses a config without one.
-        return Err(ConfigError::World { place: loaded.place(""), message: "no world".into() });
+        return Err(ConfigError::World {
+            place: loaded.place(""),
+            message:
+                "no world, expected exactly one table under [world]; a log is for `driftlab replay`"
+                    .into(),
+        });
     };
     let mut files = Files::default();
     let built = build(world, &config, &mut files);

@@ -128,7 +128,7 @@ pub struct CorrectionTiming {
     pub secs: f64,
 }
 
-fn as_object<T: Serialize, S: serde::Serializer>(
+pub(crate) fn as_object<T: Serialize, S: serde::Serializer>(
     maps: &[(String, T)],
     out: S,
 ) -> Result<S::Ok, S::Error> {

@@ -25,7 +25,7 @@ use super::timed::TimedProbe;
 use crate::config::{Config, Poses};
 
 /// The map of a kind, if the config builds it.
-pub(super) fn map_of(
+pub(crate) fn map_of(
     config: &Config,
     kind: &str,
     truth: &TruePoses,
@@ -54,7 +54,7 @@ pub(super) fn map_of(
 
 /// The true poses of vertices from the start, for the baselines that are given them.
 #[derive(Clone, Debug, Default)]
-pub(super) struct TruePoses(Arc<Mutex<IdVec<VertexId, Se2>>>);
+pub(crate) struct TruePoses(Arc<Mutex<IdVec<VertexId, Se2>>>);
 
 impl GivenPoses for TruePoses {
     fn map_from_vertex(&self, vertex: VertexId) -> Option<Se2> {
@@ -113,7 +113,7 @@ pub struct AtWork {
 
 impl AtWork {
     /// So many maps, none of them at work.
-    pub(super) fn new(maps: usize) -> Self {
+    pub(crate) fn new(maps: usize) -> Self {
         Self {
             current: Arc::new(AtomicUsize::new(usize::MAX)),
             nanos: (0..maps).map(|_| AtomicU64::new(0)).collect(),

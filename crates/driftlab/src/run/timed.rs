@@ -53,16 +53,16 @@ impl Robot for TimedRobot<'_> {
 }
 
 /// A listener whose own time is taken; one that is off takes none.
-pub(super) struct TimedProbe<'a, P: ?Sized> {
+pub(crate) struct TimedProbe<'a, P: ?Sized> {
     probe: &'a mut P,
     at_work: &'a AtWork,
-    pub(super) spent: Duration,
+    pub(crate) spent: Duration,
     /// The part of it that each map gave cause to.
-    pub(super) spent_on: Vec<Duration>,
+    pub(crate) spent_on: Vec<Duration>,
 }
 
 impl<'a, P: ?Sized> TimedProbe<'a, P> {
-    pub(super) fn new(probe: &'a mut P, at_work: &'a AtWork, maps: usize) -> Self {
+    pub(crate) fn new(probe: &'a mut P, at_work: &'a AtWork, maps: usize) -> Self {
         Self { probe, at_work, spent: Duration::ZERO, spent_on: vec![Duration::ZERO; maps] }
     }
 }

@@ -1,0 +1,43 @@
+//! Why a replay fails.
+
+use std::path::PathBuf;
+
+use instrument::InstrumentError;
+
+use crate::config::ConfigError;
+use crate::run::RunError;
+
+/// Why a log cannot be replayed.
+#[derive(Debug, thiserror::Error)]
+#[non_exhaustive]
+pub enum ReplayError {
+    /// A file that was named cannot be taken.
+    #[error("{}: {message}", path.display())]
+    Input {
+        /// The file.
+        path: PathBuf,
+        /// What was found, and what was expected.
+        message: String,
+    },
+    /// The config does not fit a log.
+    #[error(transparent)]
+    Config(#[from] ConfigError),
+    /// The recording cannot be written.
+    #[error(transparent)]
+    Recording(#[from] InstrumentError),
+    /// A report cannot be put into its form.
+    #[error(transparent)]
+    Report(#[from] RunError),
+}
+
+impl ReplayError {
+    /// A file that cannot be taken.
+    pub(super) fn input(path: impl Into<PathBuf>, message: impl ToString) -> Self {
+        Self::Input { path: path.into(), message: message.to_string() }
+    }
+
+    /// Whether the input is to blame, not the work.
+    pub fn is_input(&self) -> bool {
+        matches!(self, Self::Input { .. } | Self::Config(_))
+    }
+}

@@ -1,0 +1,50 @@
+//! Replaying logs of real robots: the same maps, fed by what a person drove.
+//!
+//! | file | what |
+//! |---|---|
+//! | `log` | tells planar logs from folders of depth images |
+//! | `planar`, `messages`, `frames`, `digest` | files of every format to scans with odometry |
+//! | `given` | place matches that somebody else found |
+//! | `params` | the config as the algorithms want it |
+//! | `by_scans` | keyframes, steps and places from the scans |
+//! | `by_graph` | the pose graph as the log has it |
+//! | `sides` | the maps, each with what its kind is told |
+//! | `session`, `course` | the replay as a whole, and what it came to |
+//! | `between` | poses of all scans from those of the keyframes |
+//! | `relations`, `consistency`, `covered`, `judge` | metrics |
+//! | `report`, `steps`, `files` | the files of a replay |
+
+mod between;
+mod by_graph;
+mod by_scans;
+mod consistency;
+mod course;
+mod covered;
+mod digest;
+mod error;
+mod files;
+mod frames;
+mod given;
+mod judge;
+mod log;
+mod messages;
+mod params;
+mod planar;
+mod relations;
+mod report;
+mod session;
+mod sides;
+mod steps;
+
+pub use consistency::Inconsistency;
+pub use course::{Closures, Course, Stop};
+pub use error::ReplayError;
+pub use files::files;
+pub use given::{GivenMatch, Moment, read_matches};
+pub use judge::Asked;
+pub use log::Log;
+pub use planar::{LoggedStep, PlanarLog};
+pub use relations::{OverRelations, RelationErrors, Relations};
+pub use report::{PlaceToGo, ReplayMapMetrics, ReplayMetrics, ReplayTiming};
+pub use session::{Replayed, replay};
+pub use steps::ReplayRow;

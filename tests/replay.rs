@@ -1,0 +1,188 @@
+//! `driftlab replay` as a user meets it: results, messages, exit codes, and what is left on the disk.
+
+mod desk;
+
+use std::fmt::Write as _;
+use std::fs;
+
+use desk::{Desk, code, json, root, stderr};
+use pose::Se2;
+use serde_json::Value;
+
+const CONFIG: &str = "# A log.\nname = \"log\"\n[replay]\nloop_m = 8.0\n[sensor]\nfov_deg = 360.0\n\
+    range_m = 6.0\n[map.relative]\n[map.grid]\ncell_m = 0.5\n[record]\nlevel = \"off\"\n";
+
+/// The walls of a hall of 8 m x 6 m with a pillar and a stub.
+const WALLS: [[f64; 4]; 9] = [
+    [0.0, 0.0, 8.0, 0.0],
+    [8.0, 0.0, 8.0, 6.0],
+    [8.0, 6.0, 0.0, 6.0],
+    [0.0, 6.0, 0.0, 0.0],
+    [3.5, 2.5, 4.5, 2.5],
+    [4.5, 2.5, 4.5, 3.2],
+    [4.5, 3.2, 3.5, 3.2],
+    [3.5, 3.2, 3.5, 2.5],
+    [0.0, 4.6, 1.2, 4.6],
+];
+
+fn range_m(from: &Se2, bearing_rad: f64) -> f64 {
+    let (sin, cos) = (from.angle() + bearing_rad).sin_cos();
+    let hits = WALLS.iter().filter_map(|[ax, ay, bx, by]| {
+        let (ex, ey) = (bx - ax, by - ay);
+        let (px, py) = (ax - from.translation.x, ay - from.translation.y);
+        let cross = cos * ey - sin * ex;
+        let (range, along) = ((px * ey - py * ex) / cross, (px * sin - py * cos) / cross);
+        (range > 0.0 && (0.0..=1.0).contains(&along)).then_some(range)
+    });
+    hits.fold(81.83, f64::min)
+}
+
+/// A robot that goes round the pillar and back to where it began, whose wheels see turns too large: its
+/// log, and true relations between poses at the times of scans.
+fn drive() -> (String, String) {
+    let quarter = std::f64::consts::FRAC_PI_2;
+    let mut truth = Se2::new(1.0, 1.0, 0.0);
+    let mut told = Se2::new(5.0, -3.0, 0.4);
+    let (mut log, mut poses) = (String::from("# a log\n"), Vec::new());
+    for (side, length_m) in [6.0, 4.0, 6.0, 4.0, 3.0].iter().enumerate() {
+        for step in 0..(length_m * 2.0) as usize {
+            let turn = if step == 0 && side > 0 { quarter } else { 0.0 };
+            let motion = Se2::from_angle(turn) * Se2::new(0.5, 0.0, 0.0);
+            if !poses.is_empty() {
+                truth = truth * motion;
+                told = told * motion * Se2::from_angle(0.01 + 0.02 * turn);
+            }
+            let secs = 100.0 + poses.len() as f64;
+            poses.push((secs, truth));
+            let ranges: String = (0..180).fold(String::new(), |mut line, i| {
+                let bearing_rad = f64::from(i).to_radians() - quarter;
+                write!(line, " {:.3}", range_m(&truth, bearing_rad)).expect("memory");
+                line
+            });
+            let (x, y, theta) = (told.translation.x, told.translation.y, told.angle());
+            let pose = format!("{x} {y} {theta}");
+            writeln!(log, "FLASER 180{ranges} {pose} {pose} {secs} robot {secs}").expect("memory");
+        }
+    }
+    let mut relations = String::new();
+    for (i, (from_secs, from)) in poses.iter().enumerate() {
+        for (to_secs, to) in poses.iter().skip(i + 1).step_by(7) {
+            let between = from.inverse_mul(to);
+            let (x, y, theta) = (between.translation.x, between.translation.y, between.angle());
+            writeln!(relations, "{from_secs} {to_secs} {x} {y} 0 0 0 {theta}").expect("memory");
+        }
+    }
+    (log, relations)
+}
+
+#[test]
+fn a_log_is_replayed_and_judged_without_truth() {
+    let desk = Desk::new(CONFIG);
+    let (log, relations) = drive();
+    desk.put("drive.log", &log);
+    desk.put("relations.txt", &relations);
+    let args = ["replay", "drive.log", "a.toml", "--relations", "relations.txt", "--json"];
+    let result = json(&desk.driftlab(&args));
+    assert_eq!(result["dir"], "recordings/log");
+    let metrics = &result["metrics"];
+    assert_eq!(metrics["keyframes"], 46, "{metrics}");
+    assert!(metrics["loop_closures_accepted"].as_u64() > Some(0), "{metrics}");
+    assert!(
+        metrics["loop_closures_proposed"].as_u64() >= metrics["loop_closures_accepted"].as_u64()
+    );
+    let number = |of: &Value| of.as_f64().unwrap_or_else(|| panic!("a number: {of}"));
+    assert!(number(&metrics["relations_translation_m"]) < 0.05, "{metrics}");
+    assert!(number(&metrics["relations_rotation_deg"]) < 1.0, "{metrics}");
+    let of_odometry = &metrics["relations"]["of_two_scans"]["odometry"]["translation_m"];
+    assert!(number(of_odometry) > 0.3, "the wheels do drift: {metrics}");
+    let inconsistency = &metrics["inconsistency"];
+    assert!(number(&inconsistency["relative"]) < 0.02, "{inconsistency}");
+    assert!(number(&inconsistency["odometry"]) > number(&inconsistency["relative"]));
+    // The hall of 48 m2, without the pillar, and without what a sensor that looks ahead has not seen.
+    let covered_m2 = number(&metrics["covered_m2"]);
+    assert!((40.0..48.5).contains(&covered_m2), "{covered_m2} m2");
+    for map in ["relative", "grid"] {
+        assert!(metrics["maps"][map]["frontier_left_m"].is_number(), "{metrics}");
+        assert!(metrics["maps"][map]["coverage"].is_null(), "nobody knows: {metrics}");
+    }
+    let timing = &result["timing"];
+    for name in ["wall_secs", "keyframe_millis_median", "keyframe_millis_p99", "bytes_per_keyframe"]
+    {
+        assert!(number(&timing[name]) > 0.0, "{name}: {timing}");
+    }
+    assert_eq!(timing["log_secs"], 45.0);
+
+    let read = |name: &str| fs::read(desk.path("recordings/log").join(name)).expect(name);
+    let text = |name: &str| String::from_utf8(read(name)).expect("text");
+    for name in ["odometry.tum", "tracked.tum", "optimised.tum"] {
+        assert_eq!(text(name).lines().count(), 46, "{name}: a pose for each scan");
+    }
+    assert_eq!(text("graph.g2o").matches("VERTEX_SE2").count(), 46);
+    let closures = text("closures.txt");
+    assert_eq!(
+        Some(closures.lines().count() as u64 - 1),
+        metrics["loop_closures_accepted"].as_u64()
+    );
+    let first = read("metrics.json");
+    let steps = read("steps.parquet");
+
+    // The same again is the same, byte for byte; and what was found can be given.
+    let again = [&args[..], &["--force"]].concat();
+    assert_eq!(code(&desk.driftlab(&again)), 0);
+    assert!(read("metrics.json") == first && read("steps.parquet") == steps);
+    desk.put("closures.txt", &closures);
+    let given = [&args[..], &["--places", "closures.txt", "--out", "given"]].concat();
+    let given = json(&desk.driftlab(&given));
+    let given = &given["metrics"];
+    assert_eq!(given["loop_closures_accepted"], metrics["loop_closures_accepted"]);
+    assert!(number(&given["relations_translation_m"]) < 0.06, "{given}");
+}
+
+#[test]
+fn what_cannot_be_replayed_is_told_and_leaves_nothing() {
+    let desk = Desk::new(CONFIG);
+    let line = "FLASER 3 1 1 1 0 0 0 0 0 0 1 h 1\n";
+    desk.put("one.log", line);
+    desk.put("bad.log", "FLASER 3 1 1\n");
+    desk.put("no.log", "nothing\n");
+    desk.put("places.txt", "1 2 x 0 0\n");
+    desk.put("relations.txt", "1 2 3\n");
+    desk.put("true.toml", "[replay]\n[map.grid]\nposes = \"true\"\n");
+    for (args, found) in [
+        (&["gone.log", "a.toml"][..], "gone.log: cannot be read"),
+        (&[".", "a.toml"], ".: found a folder, expected a log"),
+        (&["bad.log", "a.toml"], "bad.log: line 1, column 8"),
+        (&["no.log", "a.toml"], "expected a log of CARMEN"),
+        (&["one.log", "true.toml"], "true.toml:3:9: found \"true\" for `map.grid.poses`"),
+        (&["one.log", "a.toml", "--places", "places.txt"], "places.txt: line 1: found `x`"),
+        (&["one.log", "a.toml", "--places", "/closures"], "found no topic /closures in a text log"),
+        (&["one.log", "a.toml", "--relations", "relations.txt"], "relations.txt: line 1, column 6"),
+        (&["one.log", "a.toml", "--set", "replay.overlap=2"], "found 2.0 for `replay.overlap`"),
+    ] {
+        let output = desk.driftlab(&[&["replay"], args].concat());
+        assert_eq!(code(&output), 2, "{args:?}: {}", stderr(&output));
+        assert!(stderr(&output).contains(found), "{args:?}: {}", stderr(&output));
+    }
+    let run = desk.driftlab(&["run", "a.toml"]);
+    assert_eq!(code(&run), 2);
+    assert!(stderr(&run).contains("a log is for `driftlab replay`"), "{}", stderr(&run));
+    assert!(!desk.path("recordings").exists());
+
+    // A log of one scan is no place to go round, but a log.
+    let result = json(&desk.driftlab(&["replay", "one.log", "a.toml", "--json"]));
+    assert_eq!(
+        (&result["metrics"]["keyframes"], &result["metrics"]["loop_closures_proposed"]),
+        (&1.into(), &0.into())
+    );
+}
+
+#[test]
+fn the_shipped_config_is_one_for_logs() {
+    let desk = Desk::new("");
+    let config = root().join("configs/logs/laser.toml");
+    let config = config.to_str().expect("a path of letters");
+    desk.put("one.log", "FLASER 3 1 1 1 0 0 0 0 0 0 1 h 1\n");
+    let result = json(&desk.driftlab(&["replay", "one.log", config, "--json"]));
+    let maps = result["metrics"]["maps"].as_object().expect("maps");
+    assert!(maps.len() >= 3, "several representations: {maps:?}");
+}
