@@ -22,17 +22,24 @@ impl Work {
                 })
         })?;
         let vertex = self.mesh.add_point(p);
-        if self.star_in(vertex, first, true) || self.star_in(vertex, first, false) {
+        if [true, false].into_iter().any(|well| self.star_in(vertex, &[first], well, None)) {
             return Some(vertex);
         }
         self.drop_points(vertex as usize);
         None
     }
 
-    /// Makes a hole round `vertex`, which lies in tetrahedron `first`, and fills it from there; `well`
-    /// where faces that would make nearly flat tetrahedra are to go too.
-    fn star_in(&mut self, vertex: u32, first: u32, well: bool) -> bool {
-        let mut hole = vec![first];
+    /// Makes a hole of the tetrahedra `start` and what has to go with them, and fills it from `vertex`, which
+    /// lies in one of them or is a corner of one; `well` where faces that would make nearly flat tetrahedra
+    /// are to go too. No vertex but `lost` goes. False, with nothing changed, where that cannot be.
+    pub(super) fn star_in(
+        &mut self,
+        vertex: u32,
+        start: &[u32],
+        well: bool,
+        lost: Option<u32>,
+    ) -> bool {
+        let mut hole = start.to_vec();
         let mut next = 0;
         while next < hole.len() {
             let t = hole[next];
@@ -44,6 +51,9 @@ impl Work {
                     continue;
                 }
                 let [x, y, z] = tet.face(f);
+                if [x, y, z].contains(&vertex) {
+                    continue;
+                }
                 let volume = self.mesh.orient(x, y, z, vertex);
                 if volume > 0.0 && !(well && evenness(&self.mesh, volume, [x, y, z, vertex]) < FLAT)
                 {
@@ -64,12 +74,19 @@ impl Work {
         let mut new = Vec::new();
         for &t in &hole {
             let tet = *self.mesh.tet(t);
-            for f in (0..4).filter(|&f| !hole.contains(&(tet.n[f] >> 2))) {
+            for f in 0..4 {
                 let [x, y, z] = tet.face(f);
-                new.push([x, y, z, vertex]);
+                if !hole.contains(&(tet.n[f] >> 2)) {
+                    if ![x, y, z].contains(&vertex) {
+                        new.push([x, y, z, vertex]);
+                    }
+                } else if self.must.holds_face(x, y, z) {
+                    // The hole went round its edge.
+                    return false;
+                }
             }
         }
-        !self.tears(&hole, &new, None)
+        !self.tears(&hole, &new, lost)
             && new.iter().all(|&[x, y, z, _]| self.mesh.orient(x, y, z, vertex) > 0.0)
             && self.exchange(&hole, &new)
     }

@@ -10,8 +10,8 @@ const STEPS: [u32; 2] = [400, 2000];
 const MOST: [usize; 2] = [28, 40];
 
 impl Work {
-    /// Removes a free point, on no constraint, by drawing it onto a neighbour or by filling its hole
-    /// anew; `hard` with more effort. False where neither works.
+    /// Removes a free point, on no constraint, by filling its hole, made larger where need be, from a
+    /// neighbour, or anew in any way; `hard` with more effort. False where neither works.
     pub(crate) fn remove_free(&mut self, s: u32, hard: bool) -> bool {
         self.shed_edges(s, hard);
         let star = self.mesh.star(s);
@@ -20,18 +20,7 @@ impl Work {
         }
         let around = self.around(s);
         for &to in &around {
-            let mut new = Vec::new();
-            let fits = star.iter().all(|&t| {
-                let tet = self.mesh.tet(t);
-                if tet.v.contains(&to) {
-                    return true;
-                }
-                let moved = tet.v.map(|v| if v == s { to } else { v });
-                new.push(moved);
-                let [a, b, c, d] = moved;
-                self.mesh.orient(a, b, c, d) > 0.0
-            });
-            if fits && self.exchange(&star, &new) {
+            if self.star_in(to, &star, false, Some(s)) {
                 self.mesh.at[s as usize] = NONE;
                 return true;
             }
