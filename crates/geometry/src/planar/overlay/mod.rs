@@ -17,6 +17,9 @@
 //!    there are merged, and every ring is a loop (\[Zie18\] 2.6.3). The thesis walks line by line; we
 //!    read the same three lists off the result.
 //!
+//! For many small overlays of plain rings on a grid of the caller's there is [`StepOverlay`]: the same
+//! engine, without labels and sources.
+//!
 //! What holds: every output edge lies on its source edge, but for the lattice; output edges that come
 //! from one input edge do not overlap; rings close; areas are exact up to 1 µm along the boundary; no
 //! input panics; same input, same bytes. Cost: O(n log n) for n edges and few crossings.
@@ -45,6 +48,7 @@ mod events;
 mod lattice;
 mod operate;
 mod region;
+mod steps;
 
 pub use events::OverlayEvent;
 pub use lattice::{LATTICE_M, REACH_M};
@@ -52,3 +56,4 @@ pub use operate::{
     Operation, Overlay, Source, difference, intersection, overlay, overlay_with, union, union_all,
 };
 pub use region::{EdgeLabel, Region, RegionEdge, Ring, RingEdge, winding};
+pub use steps::{MOST_STEPS, StepOverlay, StepRings, twice_area};
