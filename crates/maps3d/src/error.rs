@@ -104,6 +104,12 @@ pub enum Maps3dError {
         /// The limit.
         limit_px: f64,
     },
+    /// The pose of a camera has a number in it that is not finite.
+    #[error("the camera of a look at {vertex} has a pose that is not finite")]
+    Pose {
+        /// The vertex that it hangs on.
+        vertex: probe::VertexId,
+    },
     /// The reduced mesh is not a triangulation of the image.
     #[error("not a triangulation of the image: {fault}")]
     NotPlanar {

@@ -4,6 +4,7 @@ use probe::Probe;
 use solid::{Label, Polyhedron};
 
 use crate::image::{FilledImage, Pixel};
+use crate::relative::ConsolidationEvent;
 use crate::triangulate::{FrontierSquares, ImageMesh};
 
 /// Something that happened, told to a probe; the steps are those of `docs/depth.md`.
@@ -99,6 +100,12 @@ probe::variants!(DepthEvent<'_>: Prepared, Triangulated, Removed, Inserted, Reac
     Withheld, Reduced, Labelled, Joined);
 
 /// A listener of all events of this crate; implemented by whatever listens to each family.
-pub trait Map3dProbe: for<'a> Probe<DepthEvent<'a>> {}
+pub trait Map3dProbe:
+    for<'a> Probe<DepthEvent<'a>> + for<'a> Probe<ConsolidationEvent<'a>>
+{
+}
 
-impl<P> Map3dProbe for P where P: for<'a> Probe<DepthEvent<'a>> + ?Sized {}
+impl<P> Map3dProbe for P where
+    P: for<'a> Probe<DepthEvent<'a>> + for<'a> Probe<ConsolidationEvent<'a>> + ?Sized
+{
+}

@@ -7,6 +7,7 @@ pub mod image;
 pub mod plan;
 pub mod quality;
 pub mod reduce;
+pub mod relative;
 pub mod triangulate;
 pub mod view;
 
@@ -24,3 +25,4 @@ pub use map::{
 };
 pub use pipeline::{Made, ViewOptions, polyhedron, polyhedron_with};
 pub use plan::{Algorithm, Heuristic, Plan, PlanEvent, PlanOptions, Planner, Target};
+pub use relative::{ConsolidationEvent, RelativeMap, RelativeParams};

@@ -47,7 +47,7 @@ pub(super) fn closing_faces(mesh: &ImageMesh) -> Vec<[u32; 3]> {
 }
 
 /// A face that turns positively in the image, turned so that it looks outward.
-pub(super) fn outward(camera: &Camera, [a, b, c]: [u32; 3]) -> [u32; 3] {
+pub(crate) fn outward(camera: &Camera, [a, b, c]: [u32; 3]) -> [u32; 3] {
     // Where the image shows the world mirrored, what turns positively there looks inward here.
     if camera.is_right_handed() { [a, b, c] } else { [a, c, b] }
 }

@@ -10,6 +10,7 @@ mod join;
 mod star;
 mod validity;
 
+pub(crate) use join::outward;
 pub use join::{join, volume_m3};
 pub use star::StarView;
 pub use validity::validity;

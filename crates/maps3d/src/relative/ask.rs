@@ -1,0 +1,154 @@
+//! The policy's questions: frontier of a vertex, what a point is, and what is given up.
+
+use std::collections::BTreeMap;
+
+use nalgebra::{Point3, Vector3};
+use posegraph::{Scope, ScopeScratch};
+
+use super::book::Cause;
+use super::events::ConsolidationEvent;
+use super::pair::shape_of;
+use super::parts::FrontierPart;
+use super::volume::Shape;
+use super::{RelativeMap, ViewState};
+use crate::{FrontierPatch, FrontierPoint, Hovering, Known, Map3dProbe};
+
+/// What falls into one cell and faces one way.
+#[derive(Clone, Debug, Default)]
+struct Cluster {
+    area_m2: f64,
+    moment: Vector3<f64>,
+    normal: Vector3<f64>,
+    points: Vec<Point3<f64>>,
+}
+
+impl RelativeMap {
+    /// The frontier of the views of a vertex, one patch for each part that hangs together.
+    pub(super) fn patches_of(&mut self, hovering: &Hovering, out: &mut Vec<FrontierPatch>) {
+        out.clear();
+        for &view in self.views_of(hovering.vertex) {
+            let state = &self.views[view as usize];
+            for part in &state.parts {
+                let points = self.points_of(state, part, hovering);
+                if points.is_empty() {
+                    continue;
+                }
+                let first = part
+                    .pieces
+                    .first()
+                    .map_or(0, |piece| u64::from(piece.face) << 16 | u64::from(piece.ring));
+                out.push(FrontierPatch {
+                    owner: hovering.vertex,
+                    area_m2: points.iter().map(|point| point.area_m2).sum(),
+                    points,
+                    tag: u64::from(view) << 32 | first,
+                });
+            }
+        }
+    }
+
+    /// A part as points: what lies in one cell of space and faces the same of six ways is one, at the place
+    /// of the part that is nearest to its middle. The largest area first.
+    fn points_of(
+        &self,
+        state: &ViewState,
+        part: &FrontierPart,
+        hovering: &Hovering,
+    ) -> Vec<FrontierPoint> {
+        let spacing_m = self.params.point_spacing_m;
+        let mut clusters: BTreeMap<([i32; 3], usize), Cluster> = BTreeMap::new();
+        state.samples(part, |point_in_camera, area_m2, outward_in_camera| {
+            let point = state.vertex_from_camera.transform(&point_in_camera);
+            let normal = state.vertex_from_camera.rotation * outward_in_camera;
+            let cell = [0, 1, 2].map(|axis| (point[axis] / spacing_m).floor() as i32);
+            let way = 2 * normal.iamax() + usize::from(normal[normal.iamax()] < 0.0);
+            let cluster = clusters.entry((cell, way)).or_default();
+            cluster.area_m2 += area_m2;
+            cluster.moment += point.coords * area_m2;
+            cluster.normal += normal * area_m2;
+            cluster.points.push(point);
+        });
+        let mut points: Vec<FrontierPoint> = clusters
+            .into_values()
+            .filter(|cluster| cluster.area_m2 > 0.0)
+            .filter_map(|cluster| {
+                let middle = Point3::from(cluster.moment / cluster.area_m2);
+                let apart = |p: &Point3<f64>| (p - middle).norm_squared();
+                let nearest = cluster.points.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)))?;
+                Some(FrontierPoint {
+                    in_body: hovering.vertex_from_body.inverse_transform(nearest),
+                    normal_in_body: hovering.vertex_from_body.rotation.inverse()
+                        * cluster.normal.try_normalize(0.0)?,
+                    area_m2: cluster.area_m2,
+                })
+            })
+            .collect();
+        points.sort_by(|a, b| b.area_m2.total_cmp(&a.area_m2));
+        points
+    }
+
+    /// Frontier about a place does not count any more: that of the views of the vertex, or `everywhere`, of
+    /// all in scope and of those to come.
+    pub(super) fn give_up_near(
+        &mut self,
+        hovering: &Hovering,
+        place_in_body: &Point3<f64>,
+        radius_m: f64,
+        everywhere: bool,
+        probe: &mut dyn Map3dProbe,
+    ) {
+        let vertex = hovering.vertex;
+        let place = hovering.vertex_from_body.transform(place_in_body);
+        let finite = place.iter().all(|x| x.is_finite()) && radius_m >= 0.0;
+        if !finite {
+            return;
+        }
+        self.cover(vertex);
+        self.take_scope(vertex, probe);
+        let rows = if everywhere { self.scope.placed().len() } else { 1 };
+        if everywhere {
+            self.given_up.push((vertex, place, radius_m));
+        }
+        for row in &self.scope.placed()[..rows] {
+            for &view in self.views_of.get(row.vertex).into_iter().flatten() {
+                let state = &mut self.views[view as usize];
+                let in_vertex = row.root_from_vertex.inverse_transform(&place);
+                let in_camera = state.vertex_from_camera.inverse_transform(&in_vertex);
+                let (centre, ball_m) = state.open_ball;
+                state.given_up.push((in_camera, radius_m));
+                if state.counts() && (in_camera - centre).norm() <= ball_m + radius_m {
+                    state.measure(self.params.sliver_m2);
+                }
+            }
+        }
+        let place_in_vertex = place;
+        probe.emit(ConsolidationEvent::GivenUp { vertex, place_in_vertex, radius_m });
+    }
+
+    /// What the views in scope take a point for: free inside of any, solid where it lies behind an obstacle
+    /// of one, no farther than what closes frontier along walls.
+    pub(super) fn known_of(&self, hovering: &Hovering, point_in_body: &Point3<f64>) -> Known {
+        let mut scope = Scope::default();
+        let radius_m = self.params.consolidation_radius_m;
+        ScopeScratch::default().place(&self.skeleton, hovering.vertex, radius_m, &mut scope);
+        let in_root = hovering.vertex_from_body.transform(point_in_body);
+        let behind = Shape { inset_px: 0.0, ..shape_of(Cause::Wall, &self.params) };
+        let mut known = Known::Unknown;
+        for row in scope.placed() {
+            let in_vertex = row.root_from_vertex.inverse_transform(&in_root);
+            for &view in self.views_of(row.vertex) {
+                let state = &self.views[view as usize];
+                let point = state.vertex_from_camera.inverse_transform(&in_vertex);
+                if state.volume.contains(&point) {
+                    return Known::Free;
+                }
+                let beyond = state.volume.holds(&point, behind);
+                let is_solid = |face: u16| state.volume.frontier().binary_search(&face).is_err();
+                if beyond.is_some_and(is_solid) {
+                    known = Known::Solid;
+                }
+            }
+        }
+        known
+    }
+}

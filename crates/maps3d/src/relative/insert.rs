@@ -1,0 +1,147 @@
+//! A look comes in: it becomes a view, and is held against those around.
+
+use pose::Se3;
+use probe::{Probe, VertexId};
+
+use super::events::ConsolidationEvent;
+use super::pair::Pair;
+use super::volume::LocalVolume;
+use super::{RelativeMap, ViewState};
+use crate::{Look, Map3dProbe, Maps3dError, polyhedron_with};
+
+/// Forwards the events of one family: the pipeline asks for a probe of known size.
+struct Depths<'a>(&'a mut dyn Map3dProbe);
+
+impl Probe<crate::DepthEvent<'_>> for Depths<'_> {
+    fn on(&self) -> bool {
+        Probe::<crate::DepthEvent<'_>>::on(self.0)
+    }
+
+    fn emit(&mut self, event: crate::DepthEvent<'_>) {
+        self.0.emit(event);
+    }
+}
+
+/// A view of a scope, placed.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct PlacedView {
+    pub view: u32,
+    /// Row of the scope.
+    pub row: u32,
+    pub root_from_camera: Se3,
+}
+
+impl RelativeMap {
+    /// Makes a view of a look, and compares it with all views in scope.
+    pub(super) fn insert(
+        &mut self,
+        look: &Look<'_>,
+        probe: &mut dyn Map3dProbe,
+    ) -> Result<(), Maps3dError> {
+        if !is_finite(&look.vertex_from_camera) {
+            return Err(Maps3dError::Pose { vertex: look.vertex });
+        }
+        let options = self.params.view_through(&look.image.camera);
+        let made = polyhedron_with(look.image, &options, &mut Depths(&mut *probe))?;
+        let volume = LocalVolume::new(&made)?;
+        self.cover(look.vertex);
+        self.looks += 1;
+        let view = self.views.len() as u32;
+        let mut state = ViewState::new(look.vertex, look.vertex_from_camera, volume);
+        state.measure(self.params.sliver_m2);
+        if Probe::<ConsolidationEvent<'_>>::on(probe) {
+            probe.emit(ConsolidationEvent::ViewAdded { view, state: &state });
+        }
+        self.views.push(state);
+        self.views_of[look.vertex].push(view);
+        self.shells.retain(|shell| shell.vertex != look.vertex);
+        self.take_scope(look.vertex, probe);
+        self.hear_of_given_up(view);
+        self.compare_view(view, probe);
+        Ok(())
+    }
+
+    /// Holds a view on the root of the scope at hand against all others in it, both ways: its own frontier
+    /// against the nearest first, then theirs against its volume.
+    pub(super) fn compare_view(&mut self, view: u32, probe: &mut dyn Map3dProbe) {
+        let placed = self.placed_views();
+        let root_from_camera = self.views[view as usize].vertex_from_camera;
+        self.work.touched.clear();
+        for other in placed.iter().filter(|other| other.view != view) {
+            self.compare_rows(&PlacedView { view, row: 0, root_from_camera }, other, probe);
+        }
+        self.measure_touched();
+        for other in placed.iter().filter(|other| other.view != view) {
+            if self.views[other.view as usize].counts() {
+                self.compare_rows(other, &PlacedView { view, row: 0, root_from_camera }, probe);
+            }
+        }
+        self.measure_touched();
+    }
+
+    /// Closes what of one placed view the other accounts for.
+    pub(super) fn compare_rows(
+        &mut self,
+        of: &PlacedView,
+        against: &PlacedView,
+        probe: &mut dyn Map3dProbe,
+    ) {
+        let camera_from_against = of.root_from_camera.inverse_mul(&against.root_from_camera);
+        let pair = Pair { view: of.view, against: against.view, camera_from_against };
+        let scope = std::mem::take(&mut self.scope);
+        let skeleton =
+            std::mem::replace(&mut self.skeleton, super::map::empty_skeleton(&self.params));
+        let mut path = || scope.path_between(&skeleton, of.row as usize, against.row as usize);
+        self.compare(&pair, &mut path, probe);
+        (self.scope, self.skeleton) = (scope, skeleton);
+    }
+
+    /// The active views of the scope at hand, by rising distance of their vertices.
+    pub(super) fn placed_views(&self) -> Vec<PlacedView> {
+        let mut placed = Vec::new();
+        for (row, at) in self.scope.placed().iter().enumerate() {
+            for &view in self.views_of(at.vertex) {
+                let state = &self.views[view as usize];
+                if !state.retired {
+                    let root_from_camera = at.root_from_vertex * state.vertex_from_camera;
+                    placed.push(PlacedView { view, row: row as u32, root_from_camera });
+                }
+            }
+        }
+        placed
+    }
+
+    /// Measures the views whose ledgers changed.
+    pub(super) fn measure_touched(&mut self) {
+        let mut touched = std::mem::take(&mut self.work.touched);
+        touched.sort_unstable();
+        touched.dedup_by_key(|pair| pair.0);
+        for &(view, _) in &touched {
+            self.views[view as usize].measure(self.params.sliver_m2);
+        }
+        touched.clear();
+        self.work.touched = touched;
+    }
+
+    /// A new view hears of places in scope that were given up for every view.
+    fn hear_of_given_up(&mut self, view: u32) {
+        let mut places = Vec::new();
+        let state = &self.views[view as usize];
+        for row in self.scope.placed() {
+            let of_row = |vertex: VertexId| vertex == row.vertex;
+            for (_, place, radius_m) in
+                self.given_up.iter().filter(|(vertex, _, _)| of_row(*vertex))
+            {
+                let in_root = row.root_from_vertex.transform(place);
+                places.push((state.vertex_from_camera.inverse_transform(&in_root), *radius_m));
+            }
+        }
+        self.views[view as usize].given_up = places;
+    }
+}
+
+/// Whether every number of a pose is finite.
+pub(super) fn is_finite(pose: &Se3) -> bool {
+    use posegraph::RelativePose;
+    RelativePose::is_finite(pose)
+}

@@ -1,0 +1,219 @@
+//! Two views held against each other: frontier of one inside the volume of the other is closed
+//! (\[ISRR19\] 4.3, 4.4).
+
+use geometry::planar::overlay::{StepOverlay, StepRings};
+use nalgebra::Point3;
+use pose::Se3;
+use probe::{EdgeId, PathId, Probe};
+
+use super::book::{Cause, Closing, ClosingId};
+use super::events::ConsolidationEvent;
+use super::grid::{self, FaceGrid};
+use super::ledger::OpenPart;
+use super::slice::{Covered, Slicer};
+use super::volume::{LocalVolume, Shape};
+use super::{RelativeMap, RelativeParams, ViewState};
+use crate::Map3dProbe;
+
+/// Memory that comparisons reuse.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Work {
+    slicer: Slicer,
+    overlay: StepOverlay,
+    before: StepRings,
+    after: StepRings,
+    /// Faces changed by the pair at hand: index, what is open now.
+    pub changed: Vec<(usize, OpenPart)>,
+    /// Views whose ledgers changed, each with one that closed something there.
+    pub touched: Vec<(u32, u32)>,
+}
+
+/// A view to be closed, one that closes, and how they lie to each other.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Pair {
+    /// The view whose frontier is looked at.
+    pub view: u32,
+    /// The view whose volume may hold it.
+    pub against: u32,
+    /// The camera of `against` in the frame of that of `view`.
+    pub camera_from_against: Se3,
+}
+
+/// The shape in which a volume closes, by cause.
+pub(super) fn shape_of(cause: Cause, params: &RelativeParams) -> Shape {
+    let inset_px = params.inset_px;
+    match cause {
+        Cause::Inside => Shape { inset_px, shift_m: -params.shrink_m },
+        Cause::Wall => Shape { inset_px, shift_m: params.wall_closing_m },
+    }
+}
+
+impl RelativeMap {
+    /// Closes what of the open frontier of one view the volume of another accounts for, first what lies
+    /// inside, then what is left along its walls.
+    ///
+    /// `path` gives the edges between them; it is asked once, when something is closed.
+    pub(super) fn compare(
+        &mut self,
+        pair: &Pair,
+        path: &mut dyn FnMut() -> Vec<EdgeId>,
+        probe: &mut dyn Map3dProbe,
+    ) {
+        if pair.view == pair.against || !may_touch(self, pair) {
+            return;
+        }
+        let mut path_id: Option<PathId> = None;
+        for cause in [Cause::Inside, Cause::Wall] {
+            if cause == Cause::Wall && self.params.wall_closing_m <= 0.0 {
+                continue;
+            }
+            let mut work = std::mem::take(&mut self.work);
+            let (view, against) =
+                (&self.views[pair.view as usize], &self.views[pair.against as usize]);
+            work.close(view, &against.volume, pair, cause, &self.params, |_| true);
+            if !work.changed.is_empty() {
+                let path = *path_id.get_or_insert_with(|| self.book.remember(path()));
+                let (view, by, step) = (pair.view, pair.against, self.looks);
+                let id = self.book.close(Closing { cause, view, by, step, path });
+                self.write(pair, cause, id, path, &mut work, probe);
+                work.touched.push((view, by));
+            }
+            self.work = work;
+        }
+    }
+
+    /// Writes the changed faces of a pair into the ledger of the view, and tells.
+    fn write(
+        &mut self,
+        pair: &Pair,
+        cause: Cause,
+        id: ClosingId,
+        path: PathId,
+        work: &mut Work,
+        probe: &mut dyn Map3dProbe,
+    ) {
+        let on = Probe::<ConsolidationEvent<'_>>::on(probe);
+        let mut closed_m2 = 0.0;
+        for (face, after) in work.changed.drain(..) {
+            if on {
+                let state = &self.views[pair.view as usize];
+                let before = &state.open[face];
+                closed_m2 += (before.share() - after.share()) * state.grid(face).area_m2();
+                probe.emit(ConsolidationEvent::Closed {
+                    view: pair.view,
+                    state,
+                    face,
+                    before,
+                    after: &after,
+                    cause,
+                    by: pair.against,
+                    path: self.book.edges(path),
+                });
+            }
+            let state = &mut self.views[pair.view as usize];
+            state.open[face] = after;
+            state.closings.push((face as u16, id));
+        }
+        if on {
+            let Pair { view, against, camera_from_against } = *pair;
+            let event = ConsolidationEvent::PairCompared {
+                view,
+                against,
+                camera_from_against,
+                cause,
+                closed_m2,
+            };
+            probe.emit(event);
+        }
+    }
+}
+
+impl Work {
+    /// Fills `changed` with what is open of the frontier faces of `view` that hold for `wanted`, where a
+    /// volume takes something from them.
+    pub fn close(
+        &mut self,
+        view: &ViewState,
+        volume: &LocalVolume,
+        pair: &Pair,
+        cause: Cause,
+        params: &RelativeParams,
+        wanted: impl Fn(usize) -> bool,
+    ) {
+        self.changed.clear();
+        let shape = shape_of(cause, params);
+        let against_from_camera = pair.camera_from_against.inverse();
+        let mut loaded = false;
+        let solid: Vec<bool> = match cause {
+            Cause::Inside => Vec::new(),
+            Cause::Wall => {
+                let mut solid = vec![false; volume.surface_count()];
+                volume.obstacles().for_each(|face| solid[face as usize] = true);
+                solid
+            }
+        };
+        let is_solid = |face: u16| solid[face as usize];
+        let only: Option<&dyn Fn(u16) -> bool> =
+            if cause == Cause::Wall { Some(&is_solid) } else { None };
+        for (index, open) in view.open.iter().enumerate() {
+            if open.is_closed() || !wanted(index) {
+                continue;
+            }
+            let corners = view.volume.points(view.volume.frontier()[index]);
+            let face = FaceGrid::new(corners.map(|point| against_from_camera.transform(&point)));
+            if is_beside(volume, face.corners()) {
+                continue;
+            }
+            if !loaded {
+                self.slicer.load(volume, shape);
+                loaded = true;
+            }
+            if let Some(after) = self.take(open, volume, shape, &face, only) {
+                self.changed.push((index, after));
+            }
+        }
+    }
+
+    /// What is left of the open part of a face beside a volume; `None` where nothing is taken.
+    fn take(
+        &mut self,
+        open: &OpenPart,
+        volume: &LocalVolume,
+        shape: Shape,
+        face: &FaceGrid,
+        only: Option<&dyn Fn(u16) -> bool>,
+    ) -> Option<OpenPart> {
+        match self.slicer.slice(volume, shape, face, only) {
+            Covered::Nothing => None,
+            Covered::Everything => Some(OpenPart::closed()),
+            Covered::Slices => {
+                open.rings_into(&mut self.before);
+                self.overlay.difference(&self.before, &self.slicer.slices, &mut self.after);
+                // Crossings are rounded: what would not lie on the face, or not be less, is let be.
+                let is_less = self.after.twice_area() < self.before.twice_area();
+                (is_less && grid::is_within(&self.after)).then(|| OpenPart::of(&self.after))
+            }
+        }
+    }
+}
+
+/// Whether a triangle in the frame `camera` of a volume lies beyond one side of its image, or behind.
+fn is_beside(volume: &LocalVolume, corners: [Point3<f64>; 3]) -> bool {
+    let camera = volume.camera();
+    let [last_column, last_row] = volume.extent().map(f64::from);
+    // The place in the image times the depth; with the depth it tells on which side of the image.
+    let sides = corners.map(|p| {
+        let [u, v] = [camera.cx * p.z + camera.fx * p.x, camera.cy * p.z + camera.fy * p.y];
+        [u, last_column * p.z - u, v, last_row * p.z - v, p.z]
+    });
+    (0..5).any(|side| sides.iter().all(|corner| corner[side] < 0.0))
+}
+
+/// Whether the open frontier of a view comes near the volume of the other at all.
+fn may_touch(map: &RelativeMap, pair: &Pair) -> bool {
+    let (view, against) = (&map.views[pair.view as usize], &map.views[pair.against as usize]);
+    let (centre, radius_m) = view.open_ball;
+    let apart = centre - pair.camera_from_against.translation;
+    let reach_m = radius_m + against.volume.reach_m() + 2.0 * map.params.wall_closing_m;
+    apart.coords.norm_squared() <= reach_m * reach_m
+}

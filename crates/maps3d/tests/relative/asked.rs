@@ -1,0 +1,163 @@
+//! The policy's questions in a room of which everything is known.
+
+use maps3d::relative::RelativeParams;
+use maps3d::{FlightRoute, FrontierPatch, Hovering, Known, Map3d};
+use nalgebra::{Point3, Vector3};
+use pose::Se3;
+use posegraph::EdgeKind;
+use probe::{Off, VertexId};
+
+use super::scene::{Fed, reduced_to, room_image, vertex_from_camera};
+
+fn params() -> RelativeParams {
+    RelativeParams { view: reduced_to(300), ..RelativeParams::default() }
+}
+
+fn at(x: f64, y: f64, z: f64) -> Se3 {
+    Se3::new(Vector3::new(x, y, z), Se3::identity().rotation)
+}
+
+/// Four looks around from one place.
+fn looked_around(fed: &mut Fed, vertex: VertexId, world_from_vertex: &Se3) {
+    for quarter in 0..4 {
+        let camera = vertex_from_camera(f64::from(quarter) * std::f64::consts::FRAC_PI_2);
+        fed.look(vertex, camera, &room_image(&(*world_from_vertex * camera)));
+    }
+}
+
+fn hovering(vertex: VertexId) -> Hovering {
+    Hovering { vertex, vertex_from_body: Se3::identity() }
+}
+
+#[test]
+fn looking_around_closes_the_sides_of_the_looks() {
+    let mut fed = Fed::new(params());
+    let vertex = fed.vertex();
+    let camera = vertex_from_camera(0.0);
+    let place = at(-2.0, -1.0, 0.0);
+    fed.look(vertex, camera, &room_image(&(place * camera)));
+    let one_m2 = fed.map.tally().open_m2;
+    let mut fed = Fed::new(params());
+    let vertex = fed.vertex();
+    looked_around(&mut fed, vertex, &place);
+    let tally = fed.map.tally();
+    assert!(tally.volumes == 4 && tally.faces > 1000);
+    // Left are the cones above and below, and what the pillar hides.
+    let mut patches: Vec<FrontierPatch> = Vec::new();
+    fed.map.frontiers(&hovering(vertex), &mut patches);
+    let told_m2: f64 = patches.iter().map(|patch| patch.area_m2).sum();
+    assert!((told_m2 - tally.open_m2).abs() < 1e-6 * told_m2);
+    assert!((fed.map.frontier_at(vertex) - tally.open_m2).abs() < 1e-9);
+    assert!(one_m2 > 0.3 * tally.open_m2);
+    let mut between_m2 = 0.0;
+    for patch in &patches {
+        assert!(!patch.points.is_empty() && patch.owner == vertex);
+        for point in &patch.points {
+            assert!((point.normal_in_body.norm() - 1.0).abs() < 1e-9);
+            // Across the frontier nobody looked; before it, somebody did.
+            let beyond = point.in_body + point.normal_in_body * 0.02;
+            let before = point.in_body - point.normal_in_body * 0.02;
+            let known = fed.map.knows(&hovering(vertex), &before);
+            let unknown = fed.map.knows(&hovering(vertex), &beyond);
+            if known == Known::Free && unknown != Known::Free {
+                between_m2 += point.area_m2;
+            }
+        }
+    }
+    assert!(between_m2 > 0.95 * told_m2, "{between_m2} of {told_m2}");
+}
+
+#[test]
+fn what_is_seen_from_elsewhere_is_closed_and_the_rest_is_led_to() {
+    let mut fed = Fed::new(params());
+    let first = fed.vertex();
+    looked_around(&mut fed, first, &at(-2.0, -1.0, 0.0));
+    let before_m2 = fed.map.frontier_at(first);
+    let second = fed.vertex();
+    let first_from_second = at(5.0, 3.0, 0.0);
+    fed.edge(first, second, first_from_second, EdgeKind::Odometry);
+    looked_around(&mut fed, second, &at(3.0, 2.0, 0.0));
+    assert!(fed.map.frontier_at(first) < before_m2);
+    let length_m = first_from_second.distance();
+    let to = fed.map.route(&hovering(first), 0.2, &|vertex| vertex == second);
+    let expected =
+        (fed.map.frontier_at(second) > 0.0).then(|| FlightRoute::Repeat(vec![(second, length_m)]));
+    assert_eq!(to, expected);
+    assert_eq!(fed.map.route(&hovering(first), 0.2, &|_| false), None);
+}
+
+#[test]
+fn clearance_is_the_distance_from_walls_and_from_what_was_not_seen() {
+    let mut fed = Fed::new(params());
+    let vertex = fed.vertex();
+    looked_around(&mut fed, vertex, &at(-2.0, -1.0, 0.0));
+    let here = hovering(vertex);
+    // Along the room, 2 m from the nearer wall at y = -3, 1.5 m from floor and ceiling.
+    let ahead = fed.map.clearance(&here, &Point3::new(2.0, 0.0, 0.0), 0.5);
+    assert!((ahead.solid_m - 1.5).abs() < 0.1, "{ahead:?}");
+    assert!(ahead.unseen_m > 0.2 && ahead.unseen_m < 0.6, "{ahead:?}");
+    let into_wall = fed.map.clearance(&here, &Point3::new(0.0, -2.5, 0.0), 0.5);
+    assert_eq!(into_wall.solid_m, 0.0);
+    let near_wall = fed.map.clearance(&here, &Point3::new(0.0, -1.6, 0.0), 0.5);
+    assert!((near_wall.solid_at_end_m - 0.4).abs() < 0.05, "{near_wall:?}");
+    // Straight up nobody looked.
+    let up = fed.map.clearance(&here, &Point3::new(0.0, 0.0, 1.0), 0.3);
+    assert_eq!((up.unseen_m, up.unseen_at_end_m), (0.0, 0.0));
+    let nowhere = fed.map.clearance(&hovering(VertexId(9)), &Point3::new(1.0, 0.0, 0.0), 0.3);
+    assert_eq!(nowhere, maps3d::FlightClearance::NONE);
+}
+
+#[test]
+fn what_is_given_up_does_not_count_any_more() {
+    let mut fed = Fed::new(params());
+    let vertex = fed.vertex();
+    looked_around(&mut fed, vertex, &at(-2.0, -1.0, 0.0));
+    let mut patches = Vec::new();
+    let mut rounds = 0;
+    loop {
+        fed.map.frontiers(&hovering(vertex), &mut patches);
+        let Some(place) = patches.first().map(|patch| patch.points[0].in_body) else { break };
+        let before_m2 = fed.map.tally().open_m2;
+        fed.map.give_up(&hovering(vertex), &place, 0.5, rounds % 2 == 0, &mut Off);
+        assert!(fed.map.tally().open_m2 < before_m2);
+        rounds += 1;
+        assert!(rounds < 500);
+    }
+    let tally = fed.map.tally();
+    assert!(tally.patches == 0 && tally.open_m2 == 0.0 && tally.given_up_m2 > 1.0, "{tally:?}");
+    assert!(fed.map.route(&hovering(vertex), 0.2, &|_| true).is_none());
+}
+
+#[test]
+fn bad_looks_are_refused_and_change_nothing() {
+    let mut fed = Fed::new(params());
+    let vertex = fed.vertex();
+    let image = room_image(&vertex_from_camera(0.0));
+    let mut bad = image.clone();
+    bad.depths_m.pop();
+    let nan = Se3::new(Vector3::new(f64::NAN, 0.0, 0.0), Se3::identity().rotation);
+    for (vertex_from_camera, image) in [(Se3::identity(), &bad), (nan, &image)] {
+        let look = maps3d::Look { vertex, vertex_from_camera, image };
+        assert!(fed.map.looked(&look, &mut Off).is_err());
+        assert_eq!(fed.map.tally(), maps3d::MapTally::default());
+    }
+    // An image without a reading is all frontier.
+    let mut empty = image.clone();
+    empty.depths_m.fill(f32::NAN);
+    fed.look(vertex, Se3::identity(), &empty);
+    let tally = fed.map.tally();
+    assert!(tally.volumes == 1 && tally.patches == 1 && tally.open_m2 > 50.0, "{tally:?}");
+}
+
+#[test]
+fn the_same_looks_give_the_same_map() {
+    let told = || {
+        let mut fed = Fed::new(params());
+        let vertex = fed.vertex();
+        looked_around(&mut fed, vertex, &at(-2.0, -1.0, 0.0));
+        let mut patches = Vec::new();
+        fed.map.frontiers(&hovering(vertex), &mut patches);
+        (fed.map.tally(), fed.map.bytes(), patches)
+    };
+    assert_eq!(told(), told());
+}

@@ -1,0 +1,7 @@
+//! The relative map of space: areas, membership, monotony, withdrawal, and the policy's questions.
+
+mod asked;
+mod oracle;
+mod pairs;
+mod scene;
+mod withdrawal;
