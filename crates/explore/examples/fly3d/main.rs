@@ -1,7 +1,8 @@
 //! Explores a generated place of space and prints how it went:
 //! `cargo run --release -p explore --example fly3d -- WORLD SEED SCALE [MAP] [key=value ...]`
 //!
-//! WORLD is `rooms`, `office`, `pillars` or `cave`; SCALE multiplies the drift of odometry.
+//! WORLD is `rooms`, `office`, `pillars` or `cave`; SCALE multiplies the drift of odometry. MAP is `relative`,
+//! or `points`: a second map that decides by samples alone.
 
 #![expect(clippy::print_stdout, reason = "an example that prints")]
 
@@ -11,8 +12,7 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use explore::{FlightEvent, FlightExplorer, FlightParams};
-use maps3d::DepthEvent;
-use maps3d::Map3d;
+use maps3d::{ConsolidationEvent, DepthEvent, Map3d, RelativeMap, RelativeParams};
 use metrics::{FlightWitness, VoxelCoverage, VoxelParams};
 use probe::Probe;
 use worlds::space::{
@@ -52,6 +52,14 @@ impl Probe<DepthEvent<'_>> for Told {
     fn emit(&mut self, _: DepthEvent<'_>) {}
 }
 
+impl Probe<ConsolidationEvent<'_>> for Told {
+    fn on(&self) -> bool {
+        false
+    }
+
+    fn emit(&mut self, _: ConsolidationEvent<'_>) {}
+}
+
 fn world(name: &str, seed: u64) -> World3d {
     match name {
         "rooms" => rooms(&Rooms3dParams { seed, ..Rooms3dParams::default() }),
@@ -62,8 +70,9 @@ fn world(name: &str, seed: u64) -> World3d {
     .expect("a world")
 }
 
-fn map_of(name: &str) -> Box<dyn Map3d + Send> {
+fn map_of(name: &str, relative: RelativeParams) -> Box<dyn Map3d + Send> {
     match name {
+        "relative" => Box::new(RelativeMap::new(relative).expect("parameters")),
         "points" => Box::new(points_map::PointsMap::default()),
         _ => panic!("unknown map {name}"),
     }
@@ -75,11 +84,12 @@ fn main() {
     let place = arg(0, "rooms");
     let seed: u64 = arg(1, "1").parse().expect("a seed");
     let scale: f64 = arg(2, "1").parse().expect("a scale");
-    let kind = arg(3, "points");
+    let kind = arg(3, "relative");
     let mut params = FlyerParams::default();
     params.odometry.scale = scale;
     let mut flight =
         FlightParams { body_radius_m: params.radius_m, max_steps: 3000, ..FlightParams::default() };
+    let mut relative = RelativeParams::default();
     let mut verbose = false;
     for pair in args.iter().skip(4) {
         let (key, value) = pair.split_once('=').expect("key=value");
@@ -89,6 +99,19 @@ fn main() {
             "steps" => flight.max_steps = number() as u64,
             "fov" => params.camera.fov_down_rad = number().to_radians(),
             "hop" => flight.hop_m = number(),
+            "vertices" => {
+                let stop = maps3d::reduce::Stop::Vertices(number() as usize);
+                relative.view.reduce.as_mut().expect("a default").stop = stop;
+            }
+            "conservative" => {
+                relative.view.reduce.as_mut().expect("a default").conservative_m = Some(number());
+            }
+            "share" => relative.view.frontier_share = number(),
+            "scope" => relative.consolidation_radius_m = number(),
+            "wall" => relative.wall_closing_m = number(),
+            "shrink" => relative.shrink_m = number(),
+            "sliver" => relative.sliver_m2 = number(),
+            "spacing" => relative.point_spacing_m = number(),
             _ => panic!("unknown key {key}"),
         }
     }
@@ -106,7 +129,7 @@ fn main() {
     );
     let robot = SimFlyer::new(world.clone(), params, seed).expect("it fits");
     let mut witness = FlightWitness::new(robot, coverage);
-    let mut explorer = FlightExplorer::new(vec![map_of(&kind)], flight);
+    let mut explorer = FlightExplorer::new(vec![map_of(&kind, relative)], flight);
     let started = Instant::now();
     let mut told = Told(verbose);
     let mut collided = 0;
