@@ -138,11 +138,14 @@ impl RelativeMap {
                     bare.open[face] = after;
                 }
             }
-            for (index, open) in bare.open.iter().enumerate().filter(|(_, open)| !open.is_closed())
-            {
+            // Slivers hide nothing, and would keep the robot from leaving.
+            bare.given_up.clear();
+            bare.measure(self.params.sliver_m2);
+            for &piece in bare.parts.iter().flat_map(|part| &part.pieces) {
+                let index = usize::from(piece.face);
                 let corners = state.volume.points(state.volume.frontier()[index]);
                 let face = FaceGrid::new(corners.map(|p| vertex_from_camera.transform(&p)));
-                open.rings_into(&mut rings);
+                rings_of(&bare.open[index], piece, &mut all, &mut rings);
                 triangles(&rings, |piece| {
                     shell.unseen.push(piece.map(|place| face.point(place).cast::<f32>()));
                 });

@@ -3,7 +3,7 @@
 use maps3d::reduce::{InverseDepth, Method, ReduceOptions, Stop};
 use maps3d::relative::{RelativeMap, RelativeParams};
 use maps3d::{Look, Map3d, ViewOptions};
-use nalgebra::{Point3, UnitQuaternion, Vector3};
+use nalgebra::{UnitQuaternion, Vector3};
 use pose::Se3;
 use posegraph::{EdgeKind, PoseGraph};
 use probe::{EdgeId, Off, VertexId};
@@ -158,9 +158,4 @@ impl Fed {
         let look = Look { vertex, vertex_from_camera, image };
         self.map.looked(&look, &mut Off).expect("a view");
     }
-}
-
-/// A point of a triangle, by shares.
-pub fn mixed([a, b, c]: [Point3<f64>; 3], [s, t]: [f64; 2]) -> Point3<f64> {
-    a + (b - a) * s + (c - a) * t
 }
