@@ -61,6 +61,19 @@ impl RelativeMap {
         Ok(())
     }
 
+    /// Takes a new view out of later comparisons if it adds nothing: no frontier of its own counts after it
+    /// was held against the others, and it closed none of theirs that did.
+    ///
+    /// What it sees is then bounded by what others see, but for slivers: were some of it beyond them all, it
+    /// would hold frontier of theirs. So going round in known space costs no more each time.
+    fn retire_if_idle(&mut self, view: u32, closed_others: bool, probe: &mut dyn Map3dProbe) {
+        let state = &mut self.views[view as usize];
+        if !closed_others && !state.counts() {
+            state.retired = true;
+            probe.emit(ConsolidationEvent::Retired { view });
+        }
+    }
+
     /// Holds a view on the root of the scope at hand against all others in it, both ways: its own frontier
     /// against the nearest first, then theirs against its volume.
     pub(super) fn compare_view(&mut self, view: u32, probe: &mut dyn Map3dProbe) {
@@ -76,7 +89,10 @@ impl RelativeMap {
                 self.compare_rows(other, &PlacedView { view, row: 0, root_from_camera }, probe);
             }
         }
+        let before_m2: f64 = self.views.iter().map(|state| state.open_m2).sum();
         self.measure_touched();
+        let after_m2: f64 = self.views.iter().map(|state| state.open_m2).sum();
+        self.retire_if_idle(view, after_m2 < before_m2, probe);
     }
 
     /// Closes what of one placed view the other accounts for.
