@@ -10,6 +10,7 @@ pub mod reduce;
 pub mod relative;
 pub mod triangulate;
 pub mod view;
+pub mod voxels;
 
 mod error;
 mod events;
@@ -26,3 +27,4 @@ pub use map::{
 pub use pipeline::{Made, ViewOptions, polyhedron, polyhedron_with};
 pub use plan::{Algorithm, Heuristic, Plan, PlanEvent, PlanOptions, Planner, Target};
 pub use relative::{ConsolidationEvent, RelativeMap, RelativeParams};
+pub use voxels::{VoxelMap, VoxelParams};
