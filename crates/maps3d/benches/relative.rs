@@ -1,0 +1,141 @@
+//! A walk of simulated frames of 640 x 480 pixels: time per frame from depth to updated map, and memory per
+//! view, of the relative map beside the voxel map.
+//!
+//! `cargo bench -p maps3d --bench relative -- [FRAMES] [FOLDER]`; 60 frames where no number is given. With a
+//! folder the frames are written there, as `benches/peers/octomap_frames.py` reads them for OctoMap.
+
+#![allow(missing_docs, reason = "a program")]
+#![expect(clippy::print_stdout, reason = "a bench that prints its table")]
+
+use std::path::Path;
+use std::time::Instant;
+
+use maps3d::{Look, Map3d, RelativeMap, RelativeParams, VoxelMap, VoxelParams};
+use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
+use pose::Se3;
+use posegraph::{EdgeKind, PoseGraph};
+use probe::{Off, VertexId};
+use sensing::{Camera, DepthImage};
+
+const COLUMNS: usize = 640;
+const ROWS: usize = 480;
+
+/// A hall of 10 by 8 by 3 m with pillars, shelves and a table: the hall from within, the rest from without.
+const BOXES: [([f64; 3], [f64; 3]); 8] = [
+    ([-5.0, -4.0, -1.5], [5.0, 4.0, 1.5]),
+    ([-0.4, -0.4, -1.5], [0.4, 0.4, 1.5]),
+    ([-3.0, 1.0, -1.5], [-2.5, 1.5, 1.5]),
+    ([2.2, -2.0, -1.5], [2.7, -1.5, 1.5]),
+    ([-5.0, -1.0, -1.5], [-4.6, 1.0, 0.3]),
+    ([0.5, 3.6, -1.5], [2.5, 4.0, 0.5]),
+    ([-2.0, -1.8, -0.8], [-0.9, -1.0, -0.7]),
+    ([4.5, 0.5, -1.5], [5.0, 2.5, -0.2]),
+];
+
+/// Where the camera is in the hall at a frame: round and round, half as fast round itself.
+fn world_from_camera(frame: usize) -> Se3 {
+    let turn = frame as f64 * 0.06;
+    let place = Vector3::new(3.2 * turn.cos(), 2.4 * turn.sin(), 0.15 * (1.7 * turn).sin());
+    let upright = Matrix3::new(0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0);
+    let upright = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(upright));
+    let heading = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), 1.5 * turn + 1.0);
+    Se3::new(place, heading * upright)
+}
+
+/// What the camera sees: noise of a structured-light camera, and pixels without a reading.
+fn image(frame: usize) -> DepthImage {
+    let camera = Camera::new(576.0, 578.0, 319.5, 239.5);
+    let pose = world_from_camera(frame);
+    let mut seed = 0x9E37_79B9_u32.wrapping_mul(frame as u32 + 1);
+    let mut depths_m = Vec::with_capacity(COLUMNS * ROWS);
+    for at in 0..COLUMNS * ROWS {
+        let [x, y] = camera.slope_of((at % COLUMNS) as f64, (at / COLUMNS) as f64);
+        let way = pose.rotation * Vector3::new(x, y, 1.0);
+        let mut depth_m = f64::INFINITY;
+        for (number, (low, high)) in BOXES.iter().enumerate() {
+            let (mut enter, mut leave) = (f64::NEG_INFINITY, f64::INFINITY);
+            for axis in 0..3 {
+                let [a, b] =
+                    [low, high].map(|side| (side[axis] - pose.translation[axis]) / way[axis]);
+                (enter, leave) = (enter.max(a.min(b)), leave.min(a.max(b)));
+            }
+            let meets_m = if number == 0 { leave } else { enter };
+            if enter <= leave && meets_m > 0.0 {
+                depth_m = depth_m.min(meets_m);
+            }
+        }
+        seed = seed.wrapping_mul(1_664_525).wrapping_add(1_013_904_223);
+        let noise = (f64::from(seed >> 16) / 65_536.0 - 0.5) * 0.004 * depth_m * depth_m;
+        depths_m.push(if seed >> 24 == 0 { f32::NAN } else { (depth_m + noise) as f32 });
+    }
+    DepthImage::new(COLUMNS, camera, depths_m)
+}
+
+/// Writes a frame and its pose for a peer.
+fn write(folder: &Path, frame: usize, image: &DepthImage) -> std::io::Result<()> {
+    let bytes: Vec<u8> = image.depths_m.iter().flat_map(|depth_m| depth_m.to_le_bytes()).collect();
+    std::fs::write(folder.join(format!("{frame:04}.f32")), bytes)?;
+    let pose = world_from_camera(frame);
+    let (t, q) = (pose.translation, pose.rotation.coords);
+    let text = format!("{} {} {} {} {} {} {}\n", t.x, t.y, t.z, q.x, q.y, q.z, q.w);
+    std::fs::write(folder.join(format!("{frame:04}.pose")), text)
+}
+
+fn median(times: &[f64]) -> f64 {
+    let mut sorted = times.to_vec();
+    sorted.sort_by(f64::total_cmp);
+    sorted.get(sorted.len() / 2).copied().unwrap_or(f64::NAN)
+}
+
+fn main() {
+    let args: Vec<String> = std::env::args().skip(1).filter(|arg| !arg.starts_with("--")).collect();
+    let frames: usize = args.first().and_then(|arg| arg.parse().ok()).unwrap_or(60);
+    let folder = args.get(1).map(Path::new);
+    let voxels_too = frames <= 100;
+    let mut relative = RelativeMap::new(RelativeParams::default()).expect("defaults");
+    let mut voxels = VoxelMap::new(VoxelParams::default()).expect("defaults");
+    let mut graph: PoseGraph<Se3> = PoseGraph::new();
+    let mut times: [Vec<f64>; 2] = [Vec::new(), Vec::new()];
+    for frame in 0..frames {
+        let image = image(frame);
+        if let Some(folder) = folder {
+            write(folder, frame, &image).expect("a folder to write to");
+        }
+        let vertex = graph.add_vertex();
+        let mut edges = Vec::new();
+        if frame > 0 {
+            let step = world_from_camera(frame - 1).inverse_mul(&world_from_camera(frame));
+            let before = VertexId(vertex.0 - 1);
+            edges.push(graph.add_edge(before, vertex, step, EdgeKind::Odometry).expect("an edge"));
+        }
+        let look = Look { vertex, vertex_from_camera: Se3::identity(), image: &image };
+        let maps: [&mut dyn Map3d; 2] = [&mut relative, &mut voxels];
+        for (map, times) in maps.into_iter().zip(&mut times).take(1 + usize::from(voxels_too)) {
+            let started = Instant::now();
+            map.edges_added(&graph, &edges, &mut Off);
+            map.looked(&look, &mut Off).expect("a view");
+            times.push(1e3 * started.elapsed().as_secs_f64());
+        }
+        let window = (frames / 10).max(1);
+        if (frame + 1) % window == 0 {
+            let late = |times: &Vec<f64>| median(&times[times.len().saturating_sub(window)..]);
+            let kib = |map: &dyn Map3d| map.bytes() as f64 / 1024.0;
+            println!(
+                "frame {:4}: relative {:7.1} ms ({:3} active, {:5.1} KiB per view), voxels {:7.1} ms ({:8.0} KiB)",
+                frame + 1,
+                late(&times[0]),
+                relative.active_count(),
+                kib(&relative) / (frame + 1) as f64,
+                late(&times[1]),
+                kib(&voxels),
+            );
+        }
+    }
+    println!(
+        "median of {frames} frames: relative {:.1} ms, voxels {:.1} ms; {} patches, {:.2} m2 open",
+        median(&times[0]),
+        median(&times[1]),
+        relative.tally().patches,
+        relative.tally().open_m2,
+    );
+}
