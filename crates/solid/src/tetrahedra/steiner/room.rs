@@ -142,7 +142,8 @@ impl Work {
                 grown.far.push((side, tet.n[f]));
             }
         }
-        if self.tears(&grown.own, &grown.filled(s), None) {
+        // Only what it has itself can be lost by taking it in.
+        if self.tears(&[other], &grown.filled(s), None) {
             barred.push(other);
             return false;
         }
