@@ -7,7 +7,7 @@ use crate::tetrahedra::reconnect::Region;
 /// How many steps a search takes to fill the hole of a point without it, first and when it is hard.
 const STEPS: [u32; 2] = [400, 2000];
 /// The largest region that is searched.
-const MOST: [usize; 2] = [28, 40];
+const MOST: [usize; 2] = [20, 30];
 
 impl Work {
     /// Removes a free point, on no constraint, by filling its hole, made larger where need be, from a
