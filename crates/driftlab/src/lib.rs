@@ -2,7 +2,9 @@
 
 pub mod command;
 pub mod config;
+pub mod export;
 mod files;
+pub mod logs;
 pub mod replay;
 mod report;
 pub mod run;

@@ -5,6 +5,7 @@ use std::path::PathBuf;
 use clap::{Args, Parser, Subcommand};
 
 use super::graph::GraphArgs;
+use super::log::LogArgs;
 use super::mesh::MeshArgs;
 use crate::sweep::Shard;
 
@@ -115,6 +116,8 @@ pub(super) enum Command {
     Graph(GraphArgs),
     /// Meshes: make them of depth images, tell, reduce, combine, fill with tetrahedra
     Mesh(MeshArgs),
+    /// Logs of robots: tell what they hold, write them as MCAP
+    Log(LogArgs),
     /// Tell what a recording holds: entities, timelines, rows, events, final metrics
     Inspect(InspectArgs),
     /// Open a recording in the Rerun viewer
@@ -158,7 +161,13 @@ pub(super) struct RunArgs {
     /// Write the recording here instead of into the run's folder
     #[arg(long, value_name = "FILE.rrd")]
     pub(super) record: Option<PathBuf>,
-    /// Replace the run that is in the folder already
+    /// Leave each robot's log, trajectories and pose graph in this folder, for other programs
+    ///
+    /// KIND.mcap (scans, odometry, tf, pose graph, volumes; for Foxglove, ROS 2 and `driftlab replay`),
+    /// KIND.odom.tum and KIND.truth.tum (for evo), KIND.g2o; KIND is the map that steers.
+    #[arg(long, value_name = "DIR")]
+    pub(super) export: Option<PathBuf>,
+    /// Replace the run and the export that are in the folders already
     #[arg(long)]
     pub(super) force: bool,
 }

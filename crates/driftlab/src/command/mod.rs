@@ -10,6 +10,7 @@ mod failure;
 mod files;
 mod graph;
 mod inspect;
+mod log;
 mod mesh;
 mod out;
 mod progress;
@@ -38,6 +39,7 @@ pub fn main() -> ExitCode {
         Command::Report(args) => report::report(args, &out),
         Command::Graph(args) => graph::graph(args, &out),
         Command::Mesh(args) => mesh::mesh(args, &out),
+        Command::Log(args) => log::log(args, &out),
         Command::Inspect(args) => inspect::inspect(args, &out),
         Command::View(args) => view::view(args, &out),
         Command::Config(args) => config::config(args, &out),

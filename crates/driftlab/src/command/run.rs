@@ -13,6 +13,7 @@ use super::out::Out;
 use super::progress::Bar;
 use super::table::table;
 use crate::config::Level;
+use crate::export::ExportFolder;
 use crate::run::{
     Experiment, Input, Outcome, RunFolder, StepRow, files, names, run_experiment, to_json,
 };
@@ -30,6 +31,12 @@ pub(super) fn run(args: &RunArgs, out: &Out) -> Result<(), Failure> {
     for warning in &experiment.place.warnings {
         out.note(&format!("warning: {warning}"));
     }
+    if let Some(folder) = &args.export {
+        let robots = experiment.robots();
+        let names: Vec<&str> = robots.iter().filter_map(|kinds| kinds.first().copied()).collect();
+        ExportFolder::check(folder, &names, args.force)
+            .map_err(|error| Failure::Input(error.into()))?;
+    }
     let bytes = fs::read(&loaded.path).map_err(Failure::work)?;
     let config_input = Input::new(&loaded.path, &bytes);
     let (columns, rows) = experiment.coverage.size();
@@ -41,8 +48,11 @@ pub(super) fn run(args: &RunArgs, out: &Out) -> Result<(), Failure> {
 
     let mut folder = RunFolder::create(&dir, args.force)?;
     let recording = args.record.clone().unwrap_or_else(|| folder.recording());
+    let export = args.export.as_deref().map(ExportFolder::create);
+    let mut export = export.transpose().map_err(|error| Failure::Input(error.into()))?;
     let mut bars = Bars { out, current: None };
-    let outcome = run_experiment(&experiment, &recording, loaded.header(), &mut |row| {
+    let (about, sink) = (loaded.header(), export.as_mut());
+    let outcome = run_experiment(&experiment, &recording, sink, about, &mut |row| {
         bars.step(row);
     });
     bars.clear();
@@ -51,9 +61,15 @@ pub(super) fn run(args: &RunArgs, out: &Out) -> Result<(), Failure> {
         folder.write(name, &content)?;
     }
     folder.finish()?;
+    if let Some(export) = export {
+        export.finish().map_err(Failure::work)?;
+    }
 
     report(&dir, &outcome, out)?;
     out.note(&format!("wrote {}", dir.display()));
+    if let Some(folder) = &args.export {
+        out.note(&format!("wrote {}", folder.display()));
+    }
     if experiment.config.record.level != Level::Off {
         let shown = if args.record.is_some() { recording } else { dir.join(names::RECORDING) };
         out.note(&format!("step through it with: driftlab view {}", shown.display()));

@@ -199,6 +199,12 @@ impl Config {
         Some(ExtendedParams { volume, wall_closing_m: map.wall_closing_m })
     }
 
+    /// What is told of the noise of edges that are exported.
+    pub fn edge_noise(&self) -> CorrectionParams {
+        let told = CorrectionParams::default();
+        self.correction_params(told.place_sigma_m, told.place_sigma_rotation_rad.to_degrees())
+    }
+
     /// What an optimiser is told of the noise: that of the wheels as the data sheet has it, without
     /// the experiment's scale.
     fn correction_params(&self, place_sigma_m: f64, place_sigma_deg: f64) -> CorrectionParams {

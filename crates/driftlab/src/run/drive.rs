@@ -16,6 +16,7 @@ use super::sides::{AtWork, Side, Telling, TruePoses, map_of};
 use super::timed::{TimedProbe, TimedRobot};
 use super::{CorrectionTiming, MapMetrics, MapTiming, StepRow, StepSeen, Watch, quantile};
 use crate::config::Config;
+use crate::export::Feed;
 
 /// Memory is asked for every so many steps: the answer costs a walk over the map.
 const MEMORY_EVERY: u64 = 128;
@@ -56,8 +57,11 @@ pub fn drive<W: Watch>(
     let truth = TruePoses::default();
     let built = kinds.iter().filter_map(|kind| map_of(config, kind, &truth));
     let at_work = AtWork::new(kinds.len());
+    let feed = Feed::new(watch.wants_feed());
     let maps = built.enumerate().map(|(index, map)| -> Box<dyn ExplorationMap + Send> {
-        Box::new(Side::new(map, index, &at_work))
+        // All maps are fed the same.
+        let feed = if index == 0 { feed.clone() } else { Feed::default() };
+        Box::new(Side::new(map, index, &at_work, feed))
     });
     let mut explorer = Explorer::new(maps.collect(), ExploreParams::from(config));
     let mut riders: Vec<Rider> = kinds.iter().map(|&kind| Rider::new(kind)).collect();
@@ -73,6 +77,7 @@ pub fn drive<W: Watch>(
         let mut robot = Telling { witness: &mut witness, truth: &truth };
         let (report, mut cost) = timed_step(&mut explorer, &mut robot, watch, &at_work);
         let newly_seen = witness.take_newly_seen();
+        let fed = feed.take();
         for (rider, map) in riders.iter_mut().zip(explorer.maps()) {
             rider.step(step, &explorer, &report, map.as_ref(), &witness);
         }
@@ -87,6 +92,7 @@ pub fn drive<W: Watch>(
         let end = StepSeen {
             explorer: &explorer,
             report: &report,
+            fed: &fed,
             witness: &witness,
             newly_seen: &newly_seen,
             rows: &rows,

@@ -5,7 +5,7 @@
 //! | `experiment`, `place` | from a config to a place with a start |
 //! | `drive`, `sides`, `timed` | one robot's run to its end, its maps, and what it cost |
 //! | `disagree` | where several maps of one robot first disagree |
-//! | `watch`, `fan`, `record` | who looks on: a recording, or nobody |
+//! | `watch`, `fan`, `record`, `exporting` | who looks on: a recording, an export, or nobody |
 //! | `session` | all robots of an experiment |
 //! | `report`, `steps`, `provenance` | the files of a run |
 //! | `folder` | how they get their names |
@@ -13,6 +13,7 @@
 mod disagree;
 mod drive;
 mod experiment;
+mod exporting;
 mod fan;
 mod folder;
 mod place;
@@ -28,6 +29,7 @@ mod watch;
 pub use disagree::Disagreement;
 pub use drive::{MapRun, drive};
 pub use experiment::Experiment;
+pub use exporting::Exporting;
 pub use fan::Fan;
 pub use folder::{FolderError, RunFolder, names};
 pub use place::{Place, build_place};

@@ -6,9 +6,10 @@ use std::time::Instant;
 use instrument::{InstrumentError, Recorder};
 
 use super::{
-    Disagreement, Experiment, Fan, Input, MapRun, MetricsReport, Provenance, StepRow, TimingReport,
-    VERSION, drive, provenance::GIT_HASH, report, start_recording, to_parquet,
+    Disagreement, Experiment, Exporting, Fan, Input, MapRun, MetricsReport, Provenance, StepRow,
+    TimingReport, VERSION, drive, provenance::GIT_HASH, report, start_recording, to_parquet,
 };
+use crate::export::{ExportError, ExportFolder};
 use crate::table::TableError;
 
 /// What came of a run.
@@ -29,6 +30,9 @@ pub enum RunError {
     /// The recording cannot be written.
     #[error(transparent)]
     Recording(#[from] InstrumentError),
+    /// The export cannot be written.
+    #[error(transparent)]
+    Export(#[from] ExportError),
     /// A report cannot be put into its form.
     #[error(transparent)]
     Report(#[from] serde_json::Error),
@@ -40,26 +44,36 @@ pub enum RunError {
     Toml(#[from] toml::ser::Error),
 }
 
-/// Runs every robot of an experiment, one after the other, and records them to `recording`.
+/// Runs every robot of an experiment, one after the other, and records them to `recording`; each leaves its
+/// log in `export`, by the name of the map that steers it.
 ///
 /// `on_step` is told of every step. The outcome but for the timing follows from the experiment
 /// alone.
 ///
 /// # Errors
-/// [`RunError::Recording`].
+/// [`RunError::Recording`], [`RunError::Export`].
 pub fn run_experiment(
     experiment: &Experiment,
     recording: &Path,
+    export: Option<&mut ExportFolder>,
     about: &str,
     on_step: &mut dyn FnMut(&StepRow),
 ) -> Result<Outcome, RunError> {
     let started = Instant::now();
     let recording = start_recording(experiment, recording, about)?;
     let mut runs: Vec<MapRun> = Vec::new();
+    let mut export = export;
     for kinds in experiment.robots() {
-        let mut recorders = Fan::new(kinds.iter().map(|kind| recording.recorder(kind)).collect());
         let Experiment { config, place, coverage } = experiment;
-        runs.extend(drive(config, &place.world, coverage, &kinds, &mut recorders, on_step)?);
+        let recorders = Fan::new(kinds.iter().map(|kind| recording.recorder(kind)).collect());
+        let robot = kinds.first().copied().unwrap_or_default();
+        let exports = export.as_deref().map(|folder| folder.robot(robot, config.edge_noise()));
+        let mut watch = Exporting::new(recorders, exports.transpose()?, &kinds);
+        runs.extend(drive(config, &place.world, coverage, &kinds, &mut watch, on_step)?);
+        let (recorders, exports) = watch.into_parts();
+        if let Some((folder, exports)) = export.as_deref_mut().zip(exports) {
+            folder.take(exports)?;
+        }
         recorders.into_watchers().iter_mut().try_for_each(Recorder::send)?;
     }
     let disagreements: Vec<Disagreement> = runs

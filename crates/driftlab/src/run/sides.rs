@@ -23,6 +23,7 @@ use sensing::{Odometry, PlaceMatch, Repeated, Robot, Scan};
 
 use super::timed::TimedProbe;
 use crate::config::{Config, Poses};
+use crate::export::Feed;
 
 /// The map of a kind, if the config builds it.
 pub(crate) fn map_of(
@@ -140,11 +141,12 @@ impl AtWork {
     }
 }
 
-/// A map that says when it is at work, and takes the time of it.
+/// A map that says when it is at work, takes the time of it, and notes what it is fed.
 pub(super) struct Side {
     inner: Box<dyn ExplorationMap + Send>,
     index: usize,
     at_work: AtWork,
+    feed: Feed,
 }
 
 impl Side {
@@ -152,8 +154,9 @@ impl Side {
         inner: Box<dyn ExplorationMap + Send>,
         index: usize,
         at_work: &AtWork,
+        feed: Feed,
     ) -> Self {
-        Self { inner, index, at_work: at_work.clone() }
+        Self { inner, index, at_work: at_work.clone(), feed }
     }
 
     fn timed<T>(&mut self, work: impl FnOnce(&mut dyn ExplorationMap) -> T) -> T {
@@ -192,6 +195,7 @@ impl ExplorationMap for Side {
     }
 
     fn edges_added(&mut self, graph: &PoseGraph, edges: &[EdgeId], probe: &mut dyn MapProbe) {
+        self.feed.edges(graph, edges);
         self.correcting(probe, |map, probe| map.edges_added(graph, edges, probe));
     }
 
@@ -204,6 +208,7 @@ impl ExplorationMap for Side {
     }
 
     fn scanned(&mut self, standing: &Standing, scan: &Scan, probe: &mut dyn MapProbe) {
+        self.feed.scan(standing, scan);
         self.timed(|map| map.scanned(standing, scan, probe));
     }
 

@@ -6,6 +6,7 @@ use probe::Off;
 use worlds::World2d;
 
 use super::{AtWork, Disagreement, StepRow};
+use crate::export::Fed;
 
 /// A listener of everything that one robot and its maps tell, and of the truth beside it.
 pub trait Watch: ExploreProbe {
@@ -14,6 +15,11 @@ pub trait Watch: ExploreProbe {
 
     /// Which map is at work can be asked from now on; before the first step.
     fn maps(&mut self, _at_work: &AtWork) {}
+
+    /// Whether [`StepSeen::fed`] is of use.
+    fn wants_feed(&self) -> bool {
+        false
+    }
 
     /// The place, once and before the first step.
     ///
@@ -37,6 +43,8 @@ pub struct StepSeen<'a> {
     pub explorer: &'a Explorer,
     /// What the step came to.
     pub report: &'a StepReport,
+    /// What the maps were fed in this step; empty unless [`Watch::wants_feed`].
+    pub fed: &'a [Fed],
     /// The truth.
     pub witness: &'a Witness,
     /// The cells first seen in this step, as indices into the coverage.

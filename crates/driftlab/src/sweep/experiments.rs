@@ -153,7 +153,8 @@ impl Experiments {
         match &self.record {
             Some(folder) if experiment.config.record.level != Level::Off => {
                 let file = folder.join(format!("{:05}.rrd", job.number));
-                let outcome = run_experiment(&experiment, &file, loaded.header(), &mut |_| ())?;
+                let outcome =
+                    run_experiment(&experiment, &file, None, loaded.header(), &mut |_| ())?;
                 let maps = outcome.metrics.maps.iter().zip(&outcome.timing.maps);
                 let mut all = Outcome::default();
                 for ((name, metrics), (_, timing)) in maps {

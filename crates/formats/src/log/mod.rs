@@ -6,6 +6,7 @@
 
 mod message;
 mod options;
+pub mod plain;
 mod reader;
 mod scene;
 mod stamp;

@@ -81,6 +81,8 @@ pub(crate) fn scene(at: Stamp, entities: &[SceneEntity]) -> Vec<u8> {
         writer.message(2, |out| {
             stamp(out, 1, at);
             out.text(2, &entity.frame).text(3, &entity.id);
+            // It moves with its frame.
+            out.varint(5, 1);
             for dot in &entity.dots {
                 out.message(9, |out| {
                     out.message(1, |out| {

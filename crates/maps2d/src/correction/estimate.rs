@@ -38,7 +38,8 @@ impl Default for CorrectionParams {
 }
 
 impl CorrectionParams {
-    fn factor(&self, edge: &Edge) -> Factor<Se2, 3> {
+    /// The edge as an optimiser takes it, between vertices by their numbers.
+    pub fn factor(&self, edge: &Edge) -> Factor<Se2, 3> {
         let (metres, radians) = match edge.kind {
             EdgeKind::Odometry => {
                 let root = edge.length_m.sqrt();

@@ -1,0 +1,64 @@
+//! What the maps of one robot were fed.
+
+use std::sync::{Arc, Mutex, PoisonError};
+
+use maps2d::Standing;
+use posegraph::{Edge, PoseGraph};
+use probe::{EdgeId, VertexId};
+use sensing::Scan;
+
+/// One thing that every map of a robot is fed.
+#[derive(Clone, Debug)]
+pub enum Fed {
+    /// Edges of the pose graph that came at once, with the newest vertex of the graph; the first vertex
+    /// comes without.
+    Edges {
+        /// The newest vertex of the graph.
+        vertex: VertexId,
+        /// The edges.
+        edges: Vec<Edge>,
+    },
+    /// A scan.
+    Scan {
+        /// Where it was taken, as the robot believes; its sensor is the body.
+        standing: Standing,
+        /// The scan.
+        scan: Scan,
+    },
+}
+
+/// Collects what is fed, where somebody wants it; shared with the map that is fed first.
+#[derive(Clone, Debug, Default)]
+pub struct Feed(Option<Arc<Mutex<Vec<Fed>>>>);
+
+impl Feed {
+    /// A feed that collects, or one that does not and costs nothing.
+    pub fn new(wanted: bool) -> Self {
+        Self(wanted.then(Arc::default))
+    }
+
+    /// Notes edges.
+    pub fn edges(&self, graph: &PoseGraph, edges: &[EdgeId]) {
+        self.push(|| Fed::Edges {
+            vertex: VertexId(graph.vertex_count().saturating_sub(1) as u32),
+            edges: edges.iter().map(|&edge| *graph.edge(edge)).collect(),
+        });
+    }
+
+    /// Notes a scan.
+    pub fn scan(&self, standing: &Standing, scan: &Scan) {
+        self.push(|| Fed::Scan { standing: *standing, scan: scan.clone() });
+    }
+
+    /// What was noted since this was asked last, in order.
+    pub fn take(&self) -> Vec<Fed> {
+        let Some(all) = &self.0 else { return Vec::new() };
+        std::mem::take(&mut *all.lock().unwrap_or_else(PoisonError::into_inner))
+    }
+
+    fn push(&self, fed: impl FnOnce() -> Fed) {
+        if let Some(all) = &self.0 {
+            all.lock().unwrap_or_else(PoisonError::into_inner).push(fed());
+        }
+    }
+}
