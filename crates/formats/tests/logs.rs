@@ -5,9 +5,9 @@ use std::io::Cursor;
 use std::path::{Path, PathBuf};
 
 use formats::log::{
-    CameraMessage, CloudMessage, Content, ContentKind, DepthMessage, EdgeMessage, Header, Log,
-    LogReader, OdometryMessage, PoseMessage, ReadOptions, ScanMessage, Stamp, StandingMessage,
-    Transform,
+    CameraMessage, CloudMessage, Content, ContentKind, Decision, DecisionMessage, DepthMessage,
+    EdgeMessage, Header, Log, LogReader, OdometryMessage, PoseMessage, ReadOptions, ScanMessage,
+    Stamp, StandingMessage, Transform,
 };
 use formats::mcap::McapWriter;
 use formats::{Cloud, DepthPixels};
@@ -145,6 +145,17 @@ fn all_kinds() -> Vec<(&'static str, Content)> {
     };
     let cloud = Cloud { columns: 2, rows: 1, points_in_sensor: vec![[1.0, 2.0, 0.1]; 2] };
     let pixels = DepthPixels { columns: 1, rows: 2, depths_m: vec![0.1, 2.0] };
+    let gave_up = Decision::GaveUp {
+        vertex: 7,
+        vertex_from_body: planar,
+        goal_in_body: [0.1, -0.0],
+        radius_m: 1.0 / 3.0,
+        everywhere: true,
+    };
+    let decision = |decision| {
+        let stamp = Stamp::from_nanos(10);
+        Content::Decision(DecisionMessage { stamp, map: "relative".into(), decision })
+    };
     vec![
         ("/scan", Content::Scan(scan(None))),
         ("/posed", Content::Scan(scan(Some(pose)))),
@@ -196,6 +207,8 @@ fn all_kinds() -> Vec<(&'static str, Content)> {
                 vertex_from_body: planar,
             }),
         ),
+        ("/gave_up", decision(gave_up)),
+        ("/looked_again", decision(Decision::LookedAgain)),
     ]
 }
 

@@ -2,7 +2,9 @@
 
 use std::sync::{Arc, Mutex, PoisonError};
 
-use maps2d::Standing;
+use formats::log::Decision;
+use geometry::Point2;
+use maps2d::{ExplorationMap, MapProbe, Standing};
 use posegraph::{Edge, PoseGraph};
 use probe::{EdgeId, VertexId};
 use sensing::Scan;
@@ -25,6 +27,54 @@ pub enum Fed {
         /// The scan.
         scan: Scan,
     },
+    /// What the policy told the map that steers, and no other.
+    Decided {
+        /// The map, by its kind.
+        map: String,
+        /// What it was told.
+        decision: Decision,
+    },
+}
+
+/// Where something was given up, as a log has it.
+pub fn gave_up(
+    standing: &Standing,
+    goal_in_body: &Point2,
+    radius_m: f64,
+    everywhere: bool,
+) -> Decision {
+    Decision::GaveUp {
+        vertex: standing.vertex.0,
+        vertex_from_body: standing.vertex_from_body,
+        goal_in_body: [goal_in_body.x, goal_in_body.y],
+        radius_m,
+        everywhere,
+    }
+}
+
+/// Tells a map what a policy told the map of a run; does nothing where it was told to a map of another kind.
+pub fn tell(
+    map: &mut dyn ExplorationMap,
+    kind: &str,
+    decision: &Decision,
+    probe: &mut dyn MapProbe,
+) {
+    if map.kind() != kind {
+        return;
+    }
+    match *decision {
+        Decision::GaveUp {
+            vertex,
+            vertex_from_body,
+            goal_in_body: [x, y],
+            radius_m,
+            everywhere,
+        } => {
+            let standing = Standing { vertex: VertexId(vertex), vertex_from_body };
+            map.give_up(&standing, &Point2::new(x, y), radius_m, everywhere, probe);
+        }
+        Decision::LookedAgain => _ = map.look_again(probe),
+    }
 }
 
 /// Collects what is fed, where somebody wants it; shared with the map that is fed first.
@@ -48,6 +98,11 @@ impl Feed {
     /// Notes a scan.
     pub fn scan(&self, standing: &Standing, scan: &Scan) {
         self.push(|| Fed::Scan { standing: *standing, scan: scan.clone() });
+    }
+
+    /// Notes what a policy told a map.
+    pub fn decided(&self, map: &str, decision: Decision) {
+        self.push(|| Fed::Decided { map: map.to_owned(), decision });
     }
 
     /// What was noted since this was asked last, in order.

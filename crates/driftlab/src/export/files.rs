@@ -190,16 +190,16 @@ impl Exports {
         let place = |vertex: VertexId| tracks.odom_from_vertex(vertex.0 as usize);
         let done = match fed {
             Fed::Edges { edges, .. } => {
-                let founded = (known..tracks.vertices()).map(|vertex| VertexId(vertex as u32));
+                let mut founded = (known..tracks.vertices()).map(|vertex| VertexId(vertex as u32));
                 founded
-                    .map(|vertex| log.vertex(at, vertex, &place(vertex)))
-                    .collect::<Result<(), _>>()
+                    .try_for_each(|vertex| log.vertex(at, vertex, &place(vertex)))
                     .and_then(|()| log.edges(at, edges, place))
             }
             Fed::Scan { standing, scan } => {
                 self.scans += 1;
                 log.scan(at, standing, &place(standing.vertex), scan)
             }
+            Fed::Decided { map, decision } => log.decided(at, map, *decision),
         };
         self.note(done);
     }

@@ -19,7 +19,7 @@ mod run_log;
 mod tracks;
 mod volumes;
 
-pub use feed::{Fed, Feed};
+pub use feed::{Fed, Feed, gave_up, tell};
 pub use files::{ExportError, ExportFolder, Exports};
 pub use refeed::{RefeedError, is_fed, refeed};
 pub use run_log::RunLog;

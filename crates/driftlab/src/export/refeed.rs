@@ -72,6 +72,14 @@ pub fn refeed(log: &Log) -> Result<Vec<Fed>, RefeedError> {
                     reader.fed.push(Fed::Scan { standing, scan: scan.scan.clone() });
                 }
             }
+            Content::Decision(message) => {
+                // It came after the edges before it.
+                if let Some(edge) = reader.waiting.last() {
+                    reader.found(edge.b)?;
+                }
+                let (map, decision) = (message.map.to_string(), message.decision);
+                reader.fed.push(Fed::Decided { map, decision });
+            }
             _ => {}
         }
     }

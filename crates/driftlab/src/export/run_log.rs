@@ -5,8 +5,8 @@ use std::sync::Arc;
 
 use formats::FormatError;
 use formats::log::{
-    Content, EdgeMessage, Header, OdometryMessage, ScanMessage, SceneEntity, SceneLines, Stamp,
-    StandingMessage, Transform, spatial,
+    Content, Decision, DecisionMessage, EdgeMessage, Header, OdometryMessage, ScanMessage,
+    SceneEntity, SceneLines, Stamp, StandingMessage, Transform, spatial,
 };
 use formats::mcap::McapWriter;
 use maps2d::Standing;
@@ -26,11 +26,12 @@ use super::volumes::LabelledEdge;
 /// | `/tf` | the same; and `vertex_N` in `odom`, by odometry alone, when the vertex is founded |
 /// | `/graph/standing` | before each scan: the vertex that it belongs to, and the body in its frame |
 /// | `/graph/edges` | edges of the pose graph, each batch before the first scan at its newest vertex |
+/// | `/graph/decisions` | what the policy told the map that steers: goals given up, the last look |
 /// | `/graph/scene` | the graph as lines |
 /// | `/KIND/volumes` | the volumes of a map, each in the frame of its vertex, with labelled edges |
 ///
-/// Whoever feeds a map with the edges, standings and exact scans in the order of the file gives it
-/// exactly what the maps of the run got: volumes and labels come out the same, bit for bit.
+/// Whoever feeds a map with the edges, standings, exact scans and decisions in the order of the file gives it
+/// exactly what the map of the run got: volumes and labels come out the same, bit for bit.
 #[derive(Debug)]
 pub struct RunLog<W: Write> {
     writer: McapWriter<W>,
@@ -151,6 +152,15 @@ impl<W: Write> RunLog<W> {
         self.writer.write("/odom", at, &Content::Odometry(odometry))?;
         self.writer.write("/graph/standing", at, &Content::Standing(stood))?;
         self.writer.write("/scan", at, &Content::Scan(scan))
+    }
+
+    /// The policy told the map of a kind something.
+    ///
+    /// # Errors
+    /// [`FormatError::Write`]
+    pub fn decided(&mut self, at: Stamp, map: &str, decision: Decision) -> Result<(), FormatError> {
+        let message = DecisionMessage { stamp: at, map: map.into(), decision };
+        self.writer.write("/graph/decisions", at, &Content::Decision(message))
     }
 
     /// Volumes of the map `kind` are new or have other labels: each with its edges, in the frame of its

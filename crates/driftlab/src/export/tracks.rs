@@ -62,6 +62,7 @@ impl Tracks {
                 self.odometry.stamps_secs.push(at.secs());
                 self.odometry.poses.push(spatial(&odom_from_body));
             }
+            Fed::Decided { .. } => {}
         }
     }
 
@@ -91,7 +92,7 @@ impl Tracks {
 mod tests {
     use super::*;
     use posegraph::PoseGraph;
-    use probe::VertexId;
+    use probe::{EdgeId, VertexId};
 
     #[test]
     fn odometry_is_chained_and_place_edges_are_not() {
@@ -99,24 +100,20 @@ mod tests {
         let ids = [graph.add_vertex(), graph.add_vertex(), graph.add_vertex()];
         let step = Se2::new(1.0, 0.0, 0.5);
         let mut tracks = Tracks::new(CorrectionParams::default());
-        let mut fed = |vertex: VertexId, edges: &[_]| {
-            let edges = edges.iter().map(|&id| *graph_edge(&graph, id)).collect();
+        let mut fed = |graph: &PoseGraph, vertex: VertexId, edges: &[EdgeId]| {
+            let edges = edges.iter().map(|&id| *graph.edge(id)).collect();
             tracks.fed(Stamp::from_nanos(0), &Fed::Edges { vertex, edges });
         };
-        fed(ids[0], &[]);
+        fed(&graph, ids[0], &[]);
         let first = graph.add_edge(ids[0], ids[1], step, EdgeKind::Odometry).expect("an edge");
-        fed(ids[1], &[first]);
+        fed(&graph, ids[1], &[first]);
         let second = graph.add_edge(ids[1], ids[2], step, EdgeKind::Odometry).expect("an edge");
         let place = graph.add_edge(ids[0], ids[2], step, EdgeKind::Place).expect("an edge");
-        fed(ids[2], &[second, place]);
+        fed(&graph, ids[2], &[second, place]);
         assert_eq!(tracks.odom_from_vertex(2), step * step);
         let text = String::from_utf8(tracks.g2o()).expect("text");
         assert_eq!(text.matches("VERTEX_SE2").count(), 3);
         assert_eq!(text.matches("EDGE_SE2").count(), 3);
         assert!(tracks.reference_tum().is_none());
-    }
-
-    fn graph_edge(graph: &PoseGraph, id: probe::EdgeId) -> &posegraph::Edge {
-        graph.edge(id)
     }
 }

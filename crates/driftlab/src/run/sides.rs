@@ -4,6 +4,7 @@ use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
+use formats::log::Decision;
 use geometry::Point2;
 use maps2d::active::ActiveArea;
 use maps2d::correction::GivenPoses;
@@ -23,7 +24,7 @@ use sensing::{Odometry, PlaceMatch, Repeated, Robot, Scan};
 
 use super::timed::TimedProbe;
 use crate::config::{Config, Poses};
-use crate::export::Feed;
+use crate::export::{Feed, gave_up};
 
 /// The map of a kind, if the config builds it.
 pub(crate) fn map_of(
@@ -233,6 +234,7 @@ impl ExplorationMap for Side {
     }
 
     fn look_again(&mut self, probe: &mut dyn MapProbe) -> bool {
+        self.feed.decided(self.inner.kind(), Decision::LookedAgain);
         self.timed(|map| map.look_again(probe))
     }
 
@@ -274,6 +276,8 @@ impl ExplorationMap for Side {
         everywhere: bool,
         probe: &mut dyn MapProbe,
     ) {
+        let decision = gave_up(standing, goal_in_body, radius_m, everywhere);
+        self.feed.decided(self.inner.kind(), decision);
         self.timed(|map| map.give_up(standing, goal_in_body, radius_m, everywhere, probe));
     }
 

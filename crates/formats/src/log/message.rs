@@ -41,6 +41,8 @@ pub enum Content {
     Edge(EdgeMessage),
     /// The vertex of a pose graph at which the next scans are taken.
     Standing(StandingMessage),
+    /// What a policy told its map.
+    Decision(DecisionMessage),
 }
 
 impl Content {
@@ -56,6 +58,7 @@ impl Content {
             Self::Pose(_) => ContentKind::Pose,
             Self::Edge(_) => ContentKind::Edge,
             Self::Standing(_) => ContentKind::Standing,
+            Self::Decision(_) => ContentKind::Decision,
         }
     }
 }
@@ -183,6 +186,37 @@ pub struct StandingMessage {
     pub vertex: u32,
     /// The body in the frame of the vertex.
     pub vertex_from_body: Se2,
+}
+
+/// What a policy told the map that it asks: no measurement, but labels depend on it; exact to the last bit.
+#[derive(Clone, Debug, PartialEq)]
+pub struct DecisionMessage {
+    /// When it was decided.
+    pub stamp: Stamp,
+    /// The map that was told, by its kind.
+    pub map: Arc<str>,
+    /// What.
+    pub decision: Decision,
+}
+
+/// What a policy tells its map.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Decision {
+    /// Frontier about a goal does not count any more.
+    GaveUp {
+        /// The vertex that the robot stood at.
+        vertex: u32,
+        /// The body in the frame of the vertex.
+        vertex_from_body: Se2,
+        /// The goal, in the frame of the body, metres.
+        goal_in_body: [f64; 2],
+        /// How far about the goal, metres.
+        radius_m: f64,
+        /// Whether that holds for all volumes, not only for the one at the vertex.
+        everywhere: bool,
+    },
+    /// Nothing counted any more: what is least sure was to be opened once more.
+    LookedAgain,
 }
 
 /// A motion in space that keeps to the plane `z = 0`.

@@ -13,8 +13,9 @@ mod stamp;
 mod topic;
 
 pub use message::{
-    CameraMessage, CloudMessage, Content, DepthMessage, EdgeMessage, Header, Message,
-    OdometryMessage, PoseMessage, ScanMessage, StandingMessage, Transform, planar, spatial,
+    CameraMessage, CloudMessage, Content, Decision, DecisionMessage, DepthMessage, EdgeMessage,
+    Header, Message, OdometryMessage, PoseMessage, ScanMessage, StandingMessage, Transform, planar,
+    spatial,
 };
 pub use options::ReadOptions;
 pub use reader::{LogReader, Rest};

@@ -25,6 +25,8 @@ pub enum ContentKind {
     Edge,
     /// Vertices of a pose graph at which scans are taken.
     Standing,
+    /// What a policy told its map.
+    Decision,
 }
 
 impl fmt::Display for ContentKind {
@@ -39,6 +41,7 @@ impl fmt::Display for ContentKind {
             Self::Pose => "pose",
             Self::Edge => "edge",
             Self::Standing => "standing",
+            Self::Decision => "decision",
         })
     }
 }

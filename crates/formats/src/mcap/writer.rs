@@ -16,8 +16,8 @@ const EXACT: &str = "/exact";
 /// Everything that ROS 2 has a type for is written as such, in CDR, and viewers and stock readers
 /// understand it. Scans of ROS have single precision: beside each stands `foxglove.LaserScan` on a
 /// topic of its own under `/exact`, with which [`McapReader`](super::McapReader) reads back every bit;
-/// the first says in the metadata of its channel that it is a copy. Edges and standings of a pose graph are protocol buffers of this
-/// project (`driftlab.Edge`, `driftlab.Standing`), polygons and graphs to be drawn are
+/// the first says in the metadata of its channel that it is a copy. Edges and standings of a pose graph, and what a policy told its map,
+/// are protocol buffers of this project (`driftlab.Edge`, `.Standing`, `.Decision`), polygons and graphs to be drawn are
 /// `foxglove.SceneUpdate`. All schemas are in the file. The same messages give the same bytes.
 #[derive(Debug)]
 pub struct McapWriter<W: Write> {
@@ -58,6 +58,10 @@ impl<W: Write> McapWriter<W> {
             Content::Standing(standing) => {
                 let bytes = write_proto::standing(standing);
                 self.protobuf(topic, logged, "driftlab.Standing", &bytes)
+            }
+            Content::Decision(decision) => {
+                let bytes = write_proto::decision(decision);
+                self.protobuf(topic, logged, "driftlab.Decision", &bytes)
             }
             _ => self.ros(topic, logged, content, BTreeMap::new()),
         }

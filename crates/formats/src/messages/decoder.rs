@@ -82,7 +82,7 @@ impl Decoder {
             "json" => (foxglove_kind(schema)?, Encoding::Json),
             _ => return None,
         };
-        let own = matches!(kind, ContentKind::Edge | ContentKind::Standing);
+        let own = matches!(kind, ContentKind::Edge | ContentKind::Standing | ContentKind::Decision);
         if own && encoding != Encoding::Protobuf {
             return None;
         }
@@ -125,6 +125,7 @@ fn foxglove_kind(schema: &str) -> Option<ContentKind> {
         return match own {
             "Edge" => Some(ContentKind::Edge),
             "Standing" => Some(ContentKind::Standing),
+            "Decision" => Some(ContentKind::Decision),
             _ => None,
         };
     }

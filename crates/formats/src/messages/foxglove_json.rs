@@ -71,7 +71,10 @@ pub(crate) fn decode(
             let frame_from_body = parts.pose.unwrap_or_default();
             Content::Pose(PoseMessage { header, frame_from_body })
         }
-        ContentKind::Odometry | ContentKind::Edge | ContentKind::Standing => {
+        ContentKind::Odometry
+        | ContentKind::Edge
+        | ContentKind::Standing
+        | ContentKind::Decision => {
             return Err(Malformed { at: 0, found: "a type that is not written as JSON" });
         }
     })

@@ -1,19 +1,18 @@
-//! Messages of Foxglove's schemas as protocol buffers, and this project's own two.
+//! Messages of Foxglove's schemas as protocol buffers.
 
 use std::sync::Arc;
 
-use nalgebra::{UnitComplex, Vector2};
-use pose::{Se2, Se3};
+use pose::Se3;
 use sensing::Camera;
 
 use super::blocks::{self, MAX_COEFFICIENTS, MAX_RAYS, MAX_TRANSFORMS};
 use super::decoder::ScanExtras;
 use super::packed::{self, Number, Shape};
 use super::proto::{Field, Fields};
-use super::{Frames, Malformed};
+use super::{Frames, Malformed, own_proto};
 use crate::log::{
-    CameraMessage, CloudMessage, Content, ContentKind, DepthMessage, EdgeMessage, Header,
-    PoseMessage, ScanMessage, Stamp, StandingMessage, Transform,
+    CameraMessage, CloudMessage, Content, ContentKind, DepthMessage, Header, PoseMessage,
+    ScanMessage, Stamp, Transform,
 };
 
 /// What one message says; `several` tells a message of transforms from a single one.
@@ -35,8 +34,9 @@ pub(crate) fn decode(
         ContentKind::Depth => Content::Depth(image(bytes, frames, units_per_metre)?),
         ContentKind::Camera => Content::Camera(camera(bytes, frames)?),
         ContentKind::Pose => Content::Pose(pose_in_frame(bytes, frames)?),
-        ContentKind::Edge => Content::Edge(edge(bytes)?),
-        ContentKind::Standing => Content::Standing(standing(bytes)?),
+        ContentKind::Edge => Content::Edge(own_proto::edge(bytes)?),
+        ContentKind::Standing => Content::Standing(own_proto::standing(bytes)?),
+        ContentKind::Decision => Content::Decision(own_proto::decision(bytes)?),
         ContentKind::Odometry => {
             return Err(Malformed { at: 0, found: "a type that Foxglove does not have" });
         }
@@ -44,7 +44,7 @@ pub(crate) fn decode(
 }
 
 /// Walks over all fields of a message.
-fn each<'a>(
+pub(super) fn each<'a>(
     mut fields: Fields<'a>,
     mut on: impl FnMut(Field<'a>) -> Result<(), Malformed>,
 ) -> Result<(), Malformed> {
@@ -54,7 +54,7 @@ fn each<'a>(
     Ok(())
 }
 
-fn stamp(field: &Field<'_>) -> Result<Stamp, Malformed> {
+pub(super) fn stamp(field: &Field<'_>) -> Result<Stamp, Malformed> {
     let (mut secs, mut nanos) = (0, 0);
     each(field.message()?, |part| {
         match part.number {
@@ -68,7 +68,7 @@ fn stamp(field: &Field<'_>) -> Result<Stamp, Malformed> {
 }
 
 /// Numbered doubles from 1 on, as in vectors and quaternions.
-fn numbers<const N: usize>(field: &Field<'_>) -> Result<[f64; N], Malformed> {
+pub(super) fn numbers<const N: usize>(field: &Field<'_>) -> Result<[f64; N], Malformed> {
     let mut numbers = [0.0; N];
     each(field.message()?, |part| {
         if let Some(number) = numbers.get_mut(part.number as usize - 1) {
@@ -273,51 +273,4 @@ fn pose_in_frame(bytes: &[u8], frames: &mut Frames) -> Result<PoseMessage, Malfo
         Ok(())
     })?;
     Ok(PoseMessage { header: head.header(), frame_from_body })
-}
-
-/// A planar pose from x, y, cosine and sine, as they are in memory.
-fn exact(xy: [f64; 4], at: usize) -> Result<Se2, Malformed> {
-    let [x_m, y_m, cos, sin] = xy;
-    let unit = (cos * cos + sin * sin - 1.0).abs() < 1e-9;
-    if !(x_m.is_finite() && y_m.is_finite() && unit) {
-        return Err(Malformed { at, found: "a pose that is no pose" });
-    }
-    let rotation = UnitComplex::new_unchecked(nalgebra::Complex::new(cos, sin));
-    Ok(Se2 { rotation, translation: Vector2::new(x_m, y_m) })
-}
-
-fn edge(bytes: &[u8]) -> Result<EdgeMessage, Malformed> {
-    let (mut at, mut a, mut b, mut place) = (Stamp::default(), 0, 0, false);
-    let mut xy = [0.0, 0.0, 1.0, 0.0];
-    each(Fields::new(bytes), |field| {
-        match field.number {
-            1 => at = stamp(&field)?,
-            2 => a = vertex(&field)?,
-            3 => b = vertex(&field)?,
-            4 => place = field.varint()? != 0,
-            5 => xy = numbers(&field)?,
-            _ => {}
-        }
-        Ok(())
-    })?;
-    Ok(EdgeMessage { stamp: at, a, b, place, a_from_b: exact(xy, 0)? })
-}
-
-fn standing(bytes: &[u8]) -> Result<StandingMessage, Malformed> {
-    let (mut at, mut id) = (Stamp::default(), 0);
-    let mut xy = [0.0, 0.0, 1.0, 0.0];
-    each(Fields::new(bytes), |field| {
-        match field.number {
-            1 => at = stamp(&field)?,
-            2 => id = vertex(&field)?,
-            3 => xy = numbers(&field)?,
-            _ => {}
-        }
-        Ok(())
-    })?;
-    Ok(StandingMessage { stamp: at, vertex: id, vertex_from_body: exact(xy, 0)? })
-}
-
-fn vertex(field: &Field<'_>) -> Result<u32, Malformed> {
-    u32::try_from(field.varint()?).or_else(|_| field.malformed("a vertex beyond 32 bits"))
 }

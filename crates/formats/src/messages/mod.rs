@@ -6,6 +6,7 @@ mod foxglove_json;
 mod foxglove_proto;
 mod frames;
 mod json;
+mod own_proto;
 mod packed;
 pub(crate) mod proto;
 mod ros;

@@ -52,7 +52,7 @@ pub(crate) fn decode(
             let header = header(wire, frames)?;
             Content::Pose(PoseMessage { header, frame_from_body: pose(wire)? })
         }
-        ContentKind::Edge | ContentKind::Standing => {
+        ContentKind::Edge | ContentKind::Standing | ContentKind::Decision => {
             return wire.malformed("a type that ROS does not have");
         }
     })

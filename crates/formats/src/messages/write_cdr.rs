@@ -17,7 +17,7 @@ pub(crate) fn type_of(content: &Content) -> Option<&'static str> {
         Content::Depth(_) => "sensor_msgs/Image",
         Content::Camera(_) => "sensor_msgs/CameraInfo",
         Content::Pose(_) => "geometry_msgs/PoseStamped",
-        Content::Edge(_) | Content::Standing(_) => return None,
+        Content::Edge(_) | Content::Standing(_) | Content::Decision(_) => return None,
     })
 }
 
@@ -35,7 +35,7 @@ pub(crate) fn encode(content: &Content) -> Vec<u8> {
             cdr.header(header);
             cdr.pose(frame_from_body);
         }
-        Content::Edge(_) | Content::Standing(_) => cdr.bytes.clear(),
+        Content::Edge(_) | Content::Standing(_) | Content::Decision(_) => cdr.bytes.clear(),
     }
     cdr.bytes
 }

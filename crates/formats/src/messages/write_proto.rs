@@ -6,7 +6,9 @@ use pose::Se2;
 
 use super::decoder::{BEARING_STEP, RANGE_MAX, RANGE_MIN};
 use super::proto::Writer;
-use crate::log::{EdgeMessage, ScanMessage, SceneEntity, Stamp, StandingMessage};
+use crate::log::{
+    Decision, DecisionMessage, EdgeMessage, ScanMessage, SceneEntity, Stamp, StandingMessage,
+};
 
 fn stamp(writer: &mut Writer, number: u32, stamp: Stamp) {
     let (secs, nanos) = stamp.parts();
@@ -70,6 +72,23 @@ pub(crate) fn standing(message: &StandingMessage) -> Vec<u8> {
     stamp(&mut writer, 1, message.stamp);
     writer.varint(2, u64::from(message.vertex));
     writer.message(3, |at| exact(at, &message.vertex_from_body));
+    writer.bytes
+}
+
+/// `driftlab.Decision`.
+pub(crate) fn decision(message: &DecisionMessage) -> Vec<u8> {
+    let mut writer = Writer::default();
+    stamp(&mut writer, 1, message.stamp);
+    writer.text(2, &message.map);
+    match &message.decision {
+        Decision::GaveUp { vertex, vertex_from_body, goal_in_body, radius_m, everywhere } => {
+            writer.varint(3, u64::from(*vertex));
+            writer.message(4, |at| exact(at, vertex_from_body));
+            writer.message(5, |at| numbers(at, goal_in_body));
+            writer.double(6, *radius_m).varint(7, u64::from(*everywhere));
+        }
+        Decision::LookedAgain => _ = writer.varint(8, 1),
+    }
     writer.bytes
 }
 

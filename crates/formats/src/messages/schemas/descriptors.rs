@@ -66,6 +66,21 @@ const TYPES: &[Type] = &[
             (3, "vertex_from_body", Message("driftlab.Pose2")),
         ],
     ),
+    ("driftlab.Point2", None, &[(1, "x", Double), (2, "y", Double)]),
+    (
+        "driftlab.Decision",
+        None,
+        &[
+            (1, "timestamp", Message("google.protobuf.Timestamp")),
+            (2, "map", Text),
+            (3, "vertex", Uint32),
+            (4, "vertex_from_body", Message("driftlab.Pose2")),
+            (5, "goal_in_body", Message("driftlab.Point2")),
+            (6, "radius", Double),
+            (7, "everywhere", Bool),
+            (8, "looked_again", Bool),
+        ],
+    ),
     ("foxglove.Vector3", None, &[(1, "x", Double), (2, "y", Double), (3, "z", Double)]),
     (
         "foxglove.Quaternion",
