@@ -152,6 +152,31 @@ fn an_exported_run_feeds_the_same_map_again() {
     }
 }
 
+/// The same through the commands: what is left of the frontier, and where, is the same number.
+#[test]
+fn an_exported_run_is_replayed_to_the_same_frontier() {
+    let desk = Desk::new(MAZE);
+    // On the way there is frontier; at the end there is none that counts.
+    for (steps, counts) in [("150", true), ("20000", false)] {
+        let set = format!("max_steps={steps}");
+        let args = ["run", "a.toml", "--json", "--force", "--export", "out", "--set", &set];
+        let run = json(&desk.driftlab(&args));
+        let config =
+            MAZE.replace("[world.paper]\nmap = \"maze\"", "[replay]").replace("max_steps = 40", "");
+        desk.put("replay.toml", &config.replace("[planner.rapid]", ""));
+        let args =
+            ["replay", "out/relative.mcap", "replay.toml", "--json", "--force", "--out", "again"];
+        let again = json(&desk.driftlab(&args));
+        let (run, again) =
+            (&run["metrics"]["maps"]["relative"], &again["metrics"]["maps"]["relative"]);
+        for name in ["frontier_left_m", "frontier_ignored_m", "scans", "place_edges"] {
+            assert!(run[name].is_number(), "{name}: {run}");
+            assert_eq!(run[name], again[name], "{name} after {steps} steps");
+        }
+        assert_eq!(run["frontier_left_m"].as_f64() > Some(0.0), counts);
+    }
+}
+
 #[test]
 fn each_robot_leaves_its_log_its_trajectories_and_its_graph() {
     let desk = Desk::new(&format!("{MAZE}[map.grid]\ncell_m = 1.0\n"));

@@ -51,6 +51,7 @@ pub(super) fn by_graph(
                 });
             }
         };
+        step.decisions.iter().for_each(|decision| sides.decided(decision));
         for edges in step.edges.chunk_by(|one, other| one.b == other.b) {
             let new: Vec<NewEdge> = edges
                 .iter()
@@ -76,6 +77,9 @@ pub(super) fn by_graph(
         let seen = config.sensor.within_range(&config.sensor.in_view(scan.scan.clone()));
         course.saw(&standing, &seen);
         sides.scanned(&standing, &seen);
+        if index + 1 == log.scans.len() {
+            log.last_decisions.iter().for_each(|decision| sides.decided(decision));
+        }
         let on_map = sides.end();
         course.cost(NO_TIME, on_map);
         course.gated.push(0);

@@ -7,8 +7,8 @@ use std::sync::Arc;
 
 use formats::laser::LoggedScan;
 use formats::log::{
-    Content, EdgeMessage, LogReader, ReadOptions, ScanMessage, Stamp, StandingMessage, Topic,
-    planar,
+    Content, DecisionMessage, EdgeMessage, LogReader, ReadOptions, ScanMessage, Stamp,
+    StandingMessage, Topic, planar,
 };
 use pose::Se3;
 use pose::nalgebra::Vector3;
@@ -39,6 +39,7 @@ struct Heard {
     frames: Frames,
     matches: Vec<GivenMatch>,
     edges: Vec<EdgeMessage>,
+    decisions: Vec<DecisionMessage>,
     standing: Option<StandingMessage>,
     has_graph: bool,
 }
@@ -48,7 +49,9 @@ impl Heard {
         match content {
             Content::Scan(scan) => {
                 let edges = std::mem::take(&mut self.edges);
-                let step = self.standing.clone().map(|standing| LoggedStep { edges, standing });
+                let decisions = std::mem::take(&mut self.decisions);
+                let step = self.standing.clone();
+                let step = step.map(|standing| LoggedStep { decisions, edges, standing });
                 self.scans.push((topic, scan, step));
             }
             Content::Odometry(odometry) => {
@@ -71,6 +74,7 @@ impl Heard {
                 self.edges.push(edge);
             }
             Content::Standing(standing) => self.standing = Some(standing),
+            Content::Decision(decision) => self.decisions.push(decision),
             Content::Cloud(_) | Content::Depth(_) | Content::Camera(_) => {}
         }
     }
@@ -141,11 +145,12 @@ pub(super) fn read(
         inputs,
         ..PlanarLog::default()
     };
-    let (mut without, mut held) = (0_u64, Vec::new());
+    let (mut without, mut held, mut decisions) = (0_u64, Vec::new(), Vec::new());
     for (of, message, step) in &heard.scans {
         if *of != topic {
             // Edges that another topic's scan took along.
             held.extend(step.iter().flat_map(|step| step.edges.iter().cloned()));
+            decisions.extend(step.iter().flat_map(|step| step.decisions.iter().cloned()));
             continue;
         }
         let stamp = message.header.stamp;
@@ -165,9 +170,12 @@ pub(super) fn read(
         if let (Some(graph), Some(step)) = (&mut log.graph, step) {
             let mut step = step.clone();
             step.edges.splice(0..0, std::mem::take(&mut held));
+            step.decisions.splice(0..0, std::mem::take(&mut decisions));
             graph.push(step);
         }
     }
+    decisions.append(&mut heard.decisions);
+    log.last_decisions = decisions;
     if without > 0 {
         warnings.push(format!("{without} scan(s) without odometry near their time; left out"));
     }

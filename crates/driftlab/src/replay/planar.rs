@@ -4,7 +4,7 @@ use std::fs;
 use std::path::Path;
 
 use formats::laser::{self, LaserLog, LoggedScan};
-use formats::log::{EdgeMessage, StandingMessage};
+use formats::log::{DecisionMessage, EdgeMessage, StandingMessage};
 use formats::tum::Trajectory;
 
 use super::given::GivenMatch;
@@ -20,6 +20,8 @@ pub struct PlanarLog {
     /// The pose graph of the log, where it holds one: for each scan the vertex that it was taken at,
     /// and the edges that were new then.
     pub graph: Option<Vec<LoggedStep>>,
+    /// What a policy told its map after the last scan.
+    pub last_decisions: Vec<DecisionMessage>,
     /// Place matches of the topic that was asked for.
     pub matches: Vec<GivenMatch>,
     /// What was odd, one line each.
@@ -31,6 +33,8 @@ pub struct PlanarLog {
 /// What a log says of the pose graph at one scan.
 #[derive(Clone, Debug, PartialEq)]
 pub struct LoggedStep {
+    /// What a policy told its map since the scan before, and before the edges.
+    pub decisions: Vec<DecisionMessage>,
     /// Edges that were added since the scan before, in order.
     pub edges: Vec<EdgeMessage>,
     /// Where the scan was taken.

@@ -3,6 +3,7 @@
 use std::time::{Duration, Instant};
 
 use explore::GraphEvent;
+use formats::log::DecisionMessage;
 use instrument::Recorder;
 use maps2d::relative::RelativeMap;
 use maps2d::{ExplorationMap, MapProbe, Standing};
@@ -12,6 +13,7 @@ use probe::{EdgeId, Probe, VertexId};
 use sensing::Scan;
 
 use crate::config::Config;
+use crate::export::tell;
 use crate::run::{AtWork, CorrectionTiming, TimedProbe, TruePoses, map_of};
 
 /// Memory is asked for every so many keyframes: the answer costs a walk over the map.
@@ -212,6 +214,13 @@ impl Sides {
     pub fn scanned(&mut self, standing: &Standing, scan: &Scan) {
         for side in &mut self.all {
             side.work(self.step, |map, probe| map.scanned(standing, scan, probe));
+        }
+    }
+
+    /// Tells the map that was told so in the run what the policy decided.
+    pub fn decided(&mut self, message: &DecisionMessage) {
+        for side in self.all.iter_mut().filter(|side| side.name == &*message.map) {
+            side.work(self.step, |map, probe| tell(map, &message.map, &message.decision, probe));
         }
     }
 
