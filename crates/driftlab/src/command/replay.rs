@@ -13,7 +13,7 @@ use super::failure::Failure;
 use super::out::Out;
 use super::progress::Bar;
 use super::table::table;
-use crate::config::{ConfigError, Loaded, Poses, Replay};
+use crate::config::{ConfigError, Loaded, Poses};
 use crate::replay::{Asked, Log, PlanarLog, Replayed, files, read_matches, replay as replay_log};
 use crate::run::{Input, RunFolder, to_json};
 
@@ -23,7 +23,7 @@ pub(super) fn replay(args: &ReplayArgs, out: &Out) -> Result<(), Failure> {
     let default = || PathBuf::from("recordings").join(&loaded.config.name);
     let dir = args.out.clone().unwrap_or_else(default);
     RunFolder::check(&dir, args.force)?;
-    let settings = loaded.config.replay.clone().unwrap_or_else(Replay::default);
+    let settings = loaded.config.replay.clone().unwrap_or_default();
     let topic = args.places.as_deref().and_then(topic_of);
     match Log::open(&args.log, &settings, topic)? {
         Log::Planar(log) => planar(args, &loaded, &log, &dir, out),

@@ -17,7 +17,7 @@ use super::report::{ReplayMetrics, ReplayTiming};
 use super::sides::Sides;
 use super::steps::ReplayRow;
 use super::{PlanarLog, ReplayError};
-use crate::config::{Config, Replay};
+use crate::config::Config;
 
 /// What came of a replay.
 #[derive(Clone, Debug)]
@@ -130,7 +130,7 @@ pub fn replay(
     on_keyframe: &mut dyn FnMut(f64, &ReplayRow),
 ) -> Result<Replayed, ReplayError> {
     let started = Instant::now();
-    let settings = config.replay.clone().unwrap_or_else(Replay::default);
+    let settings = config.replay.clone().unwrap_or_default();
     let own_graph = log.graph.is_some() && given.is_none();
     let mut sides = Sides::new(config, own_graph, |_| Recorder::off());
     let mut watched = Watched { on_keyframe };

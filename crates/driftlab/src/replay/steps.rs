@@ -35,6 +35,9 @@ pub struct ReplayRow {
     pub place_edges: u64,
 }
 
+/// A pose of a row.
+type PoseOf = fn(&ReplayRow) -> &Se2;
+
 /// The bytes of `steps.parquet`.
 ///
 /// # Errors
@@ -46,7 +49,7 @@ pub fn to_parquet(rows: &[ReplayRow]) -> Result<Vec<u8>, TableError> {
     table.all_numbers("distance_m", rows.iter().map(|row| row.distance_m));
     table.all_numbers("time_secs", rows.iter().map(|row| row.time_secs));
     table.all_counts("vertex", rows.iter().map(|row| row.vertex));
-    let poses: [(&str, fn(&ReplayRow) -> &Se2); 2] =
+    let poses: [(&str, PoseOf); 2] =
         [("odom", |row| &row.odom_from_keyframe), ("map", |row| &row.map_from_keyframe)];
     for (name, of) in poses {
         table.all_numbers(&format!("{name}_x_m"), rows.iter().map(|row| of(row).translation.x));
