@@ -156,8 +156,8 @@ fn an_exported_run_feeds_the_same_map_again() {
 #[test]
 fn an_exported_run_is_replayed_to_the_same_frontier() {
     let desk = Desk::new(MAZE);
-    // On the way there is frontier; at the end there is none that counts.
-    for (steps, counts) in [("150", true), ("20000", false)] {
+    // On the way there is frontier that counts, and goals were given up.
+    for steps in [60, 400] {
         let set = format!("max_steps={steps}");
         let args = ["run", "a.toml", "--json", "--force", "--export", "out", "--set", &set];
         let run = json(&desk.driftlab(&args));
@@ -173,7 +173,7 @@ fn an_exported_run_is_replayed_to_the_same_frontier() {
             assert!(run[name].is_number(), "{name}: {run}");
             assert_eq!(run[name], again[name], "{name} after {steps} steps");
         }
-        assert_eq!(run["frontier_left_m"].as_f64() > Some(0.0), counts);
+        assert!(run["frontier_left_m"].as_f64() > Some(0.0));
     }
 }
 

@@ -280,7 +280,8 @@ impl Source {
     }
 }
 
-/// The topic of this name, or of all that messages came from the one with most.
+/// The topic of this name, or of all that messages came from the one with most; one that repeats another less
+/// exactly only where it is asked for.
 fn chosen(
     topics: &[Topic],
     among: &[usize],
@@ -299,8 +300,8 @@ fn chosen(
             .copied()
             .ok_or_else(|| format!("found no {what} on {asked} (`{key}`), expected {expected}"));
     }
-    let count = |topic: &usize| topics[*topic].messages;
-    let most = there.iter().copied().max_by_key(|topic| (count(topic), usize::MAX - topic));
+    let of = |topic: usize| (topics[topic].copy_of.is_none(), topics[topic].messages);
+    let most = there.iter().copied().max_by_key(|&topic| (of(topic), usize::MAX - topic));
     most.ok_or_else(|| format!("found no {what}, expected a topic of them among {}", names(topics)))
 }
 
@@ -311,7 +312,8 @@ fn told_of_others(
     what: &str,
     warnings: &mut Vec<String>,
 ) {
-    let mut others: Vec<usize> = among.iter().copied().filter(|&other| other != topic).collect();
+    let is_other = |other: &usize| *other != topic && topics[*other].copy_of.is_none();
+    let mut others: Vec<usize> = among.iter().copied().filter(is_other).collect();
     others.sort_unstable();
     others.dedup();
     if !others.is_empty() {
