@@ -8,7 +8,7 @@ use worlds::generate::{CavesParams, CorridorParams, MazeParams, PillarsParams, R
 use super::document::join;
 use super::load::properties_of;
 use super::schema::{properties, resolved, schema};
-use super::{Config, PolygonsWorld, World, reach};
+use super::{Config, PolygonsWorld, World, reach, space};
 
 /// A value outside what its key allows.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -31,7 +31,9 @@ pub(super) fn faults(config: &Config) -> Vec<Fault> {
         faults.push(fault("seed", config.seed.to_string(), format!("at most {}", i64::MAX)));
     }
     between_keys(config, &mut faults);
-    faults.extend(reach::faults(config));
+    if !config.is_of_space() {
+        faults.extend(reach::faults(config));
+    }
     faults
 }
 
@@ -114,20 +116,25 @@ fn between_keys(config: &Config, faults: &mut Vec<Fault>) {
     if !is_folder_name(&config.name) {
         faults.push(fault("name", format!("{:?}", config.name), FOLDER_NAME.into()));
     }
-    if config.world.is_none() && config.replay.is_none() {
-        let kinds = properties_of("world").join(", ");
-        faults.push(fault("", "no world".into(), format!("exactly one table of {kinds}")));
-    }
-    let maps = config.map.keys();
+    let maps = config.map_keys();
     if maps.is_empty() {
-        let kinds = properties_of("map").join(", ");
-        faults.push(fault("map", "no map".into(), format!("at least one table of {kinds}")));
+        let table = if config.is_of_space() { "map3d" } else { "map" };
+        let kinds = properties_of(table).join(", ");
+        faults.push(fault(table, "no map".into(), format!("at least one table of {kinds}")));
     }
     let drive = config.compare.drive.as_str();
     if drive != "each" && !maps.contains(&drive) {
         let names: Vec<String> = maps.iter().map(|key| format!("\"{key}\"")).collect();
         let expected = format!("\"each\" or a map of this config: {}", names.join(", "));
         faults.push(fault("compare.drive", format!("{drive:?}"), expected));
+    }
+    let (world, has_world) = match config.is_of_space() {
+        true => ("world3d", config.world3d.is_some()),
+        false => ("world", config.world.is_some()),
+    };
+    if !has_world && config.replay.is_none() {
+        let kinds = properties_of(world).join(", ");
+        faults.push(fault("", "no world".into(), format!("exactly one table of {kinds}")));
     }
     let axes = config.sweep.iter().flat_map(|sweep| sweep.axes.iter());
     for (axis, _) in axes.filter(|(axis, _)| NO_AXES.contains(&first_key(axis))) {
@@ -138,6 +145,9 @@ fn between_keys(config: &Config, faults: &mut Vec<Fault>) {
     if let (Some([columns, rows]), Some(_)) = (config.metrics.grid, config.metrics.cell_m) {
         let found = format!("[{columns}, {rows}] beside `metrics.cell_m`");
         faults.push(fault("metrics.grid", found, "one of the two".into()));
+    }
+    if config.is_of_space() {
+        space::faults(config, faults);
     }
     let generator = config.world.as_ref().map(check_generator);
     if let Some((key, Err(WorldError::Parameter { field, found, expected }))) = generator {

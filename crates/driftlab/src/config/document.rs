@@ -14,7 +14,7 @@ pub(super) struct Spans {
 }
 
 /// Tables of which exactly one key is the variant.
-pub(super) const VARIANTS: [&str; 2] = ["world", "planner"];
+pub(super) const VARIANTS: [&str; 3] = ["world", "world3d", "planner"];
 
 /// The table with all its spans moved by `base`.
 pub(super) fn moved(table: DeTable<'_>, base: usize) -> DeTable<'_> {

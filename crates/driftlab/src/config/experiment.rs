@@ -4,8 +4,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{
-    Compare, Maps, Metrics, Odometry, Places, Planner, Record, Replay, Robot, RunSweep, Sensor,
-    World,
+    Camera, Compare, Maps, Maps3d, Metrics, Metrics3d, Odometry, Places, Planner, Planner3d,
+    Record, Replay, Robot, RunSweep, Sensor, World, World3d,
 };
 
 /// One experiment: a place, a robot in it, and the maps that it builds.
@@ -34,8 +34,15 @@ pub struct Config {
     /// The place: exactly one table, whose key says what kind of place it is.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub world: Option<World>,
+    /// The place of space, in place of `world`: exactly one table, whose key says what kind it is. The
+    /// robot flies, and the tables that end in `3d` take the places of those of the plane.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub world3d: Option<World3d>,
     /// The range sensor.
     pub sensor: Sensor,
+    /// The depth camera of a robot that flies.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub camera: Option<Camera>,
     /// The noise of the wheels.
     pub odometry: Odometry,
     /// Place recognition.
@@ -44,12 +51,21 @@ pub struct Config {
     pub robot: Robot,
     /// The maps that are built: at least one table.
     pub map: Maps,
+    /// The maps of space that are built: at least one table.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub map3d: Option<Maps3d>,
     /// How the robot chooses where to go: exactly one table.
     pub planner: Planner,
+    /// How a robot that flies chooses where to go.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub planner3d: Option<Planner3d>,
     /// How several maps share the experiment.
     pub compare: Compare,
     /// How the belief is judged against the truth.
     pub metrics: Metrics,
+    /// How a belief about space is judged against the truth.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub metrics3d: Option<Metrics3d>,
     /// What the recording holds.
     pub record: Record,
     /// How `driftlab replay` takes a log; nobody else asks. A config with this table needs no world.
@@ -70,17 +86,37 @@ impl Default for Config {
             start_jitter_m: 0.0,
             start: None,
             world: None,
+            world3d: None,
             sensor: Sensor::default(),
+            camera: None,
             odometry: Odometry::default(),
             places: Places::default(),
             robot: Robot::default(),
             map: Maps::default(),
+            map3d: None,
             planner: Planner::default(),
+            planner3d: None,
             compare: Compare::default(),
             metrics: Metrics::default(),
+            metrics3d: None,
             record: Record::default(),
             replay: None,
             sweep: None,
+        }
+    }
+}
+
+impl Config {
+    /// Whether the robot flies: the tables of space count, those of the plane do not.
+    pub fn is_of_space(&self) -> bool {
+        self.world3d.is_some() || self.map3d.is_some()
+    }
+
+    /// The keys of the maps that are built, in the order in which they run.
+    pub fn map_keys(&self) -> Vec<&'static str> {
+        match &self.map3d {
+            Some(maps) if self.is_of_space() => maps.keys(),
+            _ => self.map.keys(),
         }
     }
 }
@@ -93,6 +129,9 @@ pub struct Start {
     pub x_m: f64,
     /// North of the world's origin, metres.
     pub y_m: f64,
+    /// Above the world's origin, metres; for a robot that flies.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub z_m: Option<f64>,
     /// Heading, degrees counter-clockwise from east.
     pub heading_deg: f64,
 }

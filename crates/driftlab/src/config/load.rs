@@ -20,8 +20,8 @@ use super::{Config, ConfigError, Origin, Place};
 pub struct Overrides {
     /// `path=value` with a TOML value, in order.
     pub sets: Vec<String>,
-    /// A map file that replaces the world, and the key of its kind: `image`, `map_server` or
-    /// `moving_ai`.
+    /// A map or mesh file that replaces the world, and the key of its kind: `image`, `map_server`,
+    /// `moving_ai` or `mesh`.
     pub world: Option<(PathBuf, &'static str)>,
 }
 
@@ -77,7 +77,7 @@ impl Loaded {
             let parsed = parsed.map_err(|error| explained(&error, base, &sources, &none))?;
             // The start and everything but the parameters of this kind belong to the old world.
             document.remove("start");
-            drop_file_keys(&mut document, kind);
+            drop_file_keys(&mut document, world_key(kind), kind);
             lay_over(&mut document, moved(parsed.into_inner(), base));
         }
 
@@ -113,6 +113,12 @@ impl Loaded {
         }
         if config.metrics.grid.is_some() && !spans.contains_key("metrics.cell_m") {
             config.metrics.cell_m = None;
+        }
+        one_kind_of_place(&config, &spans, &sources)?;
+        if config.is_of_space() {
+            config.camera.get_or_insert_default();
+            config.planner3d.get_or_insert_default();
+            config.metrics3d.get_or_insert_default();
         }
         let loaded = Self {
             config,
@@ -222,6 +228,9 @@ impl Loaded {
         if let Some(world) = &mut config.world {
             world.anchor_file(&folder);
         }
+        if let Some(world) = &mut config.world3d {
+            world.anchor_file(&folder);
+        }
         config
     }
 }
@@ -241,11 +250,16 @@ fn world_text(file: &Path, kind: &str) -> String {
     let absolute = std::path::absolute(file).unwrap_or_else(|_| file.to_owned());
     let key = if kind == "map_server" { "yaml" } else { "file" };
     let quoted = toml::Value::String(absolute.to_string_lossy().into_owned());
-    format!("[world.{kind}]\n{key} = {quoted}\n")
+    format!("[{}.{kind}]\n{key} = {quoted}\n", world_key(kind))
 }
 
-fn drop_file_keys(document: &mut DeTable<'_>, kind: &str) {
-    let Some(world) = document.get_mut("world") else { return };
+/// The table of places that has this kind.
+fn world_key(kind: &str) -> &'static str {
+    if kind == "mesh" { "world3d" } else { "world" }
+}
+
+fn drop_file_keys(document: &mut DeTable<'_>, world: &str, kind: &str) {
+    let Some(world) = document.get_mut(world) else { return };
     let DeValue::Table(variants) = world.get_mut() else { return };
     keep(variants, |variant| variant == kind);
     for (_, parameters) in variants.iter_mut() {
@@ -285,6 +299,36 @@ fn drop_alternatives(document: &mut DeTable<'_>, over: &DeTable<'_>) {
             old.remove(other);
         }
     }
+}
+
+/// The tables of the plane and those of space are not mixed: what one of them says would not count.
+fn one_kind_of_place(
+    config: &Config,
+    spans: &BTreeMap<String, Spans>,
+    sources: &Sources,
+) -> Result<(), ConfigError> {
+    let of_space = ["world3d", "map3d", "camera", "planner3d", "metrics3d"];
+    let is_of_space = config.is_of_space();
+    let is_foreign = |key: &str| match is_of_space {
+        true => super::space::is_only_of_the_plane(key),
+        false => of_space.contains(&key),
+    };
+    let mut foreign: Vec<(&String, &Spans)> =
+        spans.iter().filter(|(key, _)| is_foreign(key)).collect();
+    foreign.sort_by_key(|(_, spans)| spans.key.start);
+    let Some((key, spans)) = foreign.first() else { return Ok(()) };
+    let expected = match is_of_space {
+        true => format!(
+            "tables of space only beside [world3d] or [map3d]: {}",
+            of_space.map(|key| format!("[{key}]")).join(", ")
+        ),
+        false => "tables of the plane only, or a place of space under [world3d]".to_owned(),
+    };
+    Err(ConfigError::Value {
+        place: sources.place(spans.key.clone()),
+        found: format!("[{key}]"),
+        expected,
+    })
 }
 
 /// A config of another layout is told first: its keys mean something else.

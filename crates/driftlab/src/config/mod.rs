@@ -10,6 +10,7 @@
 //! | `experiment`, `world`, `generators`, `robot`, `maps`, `planner`, `report` | the types and their defaults |
 //! | `to_params` | the same as the algorithms want it, in radians |
 //! | `replay` | how a log is replayed |
+//! | `space` | the tables of a robot that flies |
 //! | `load` | file and command line to a checked config |
 //! | `source`, `document` | texts, spans, merging |
 //! | `schema`, `limits`, `check`, `reach` | ranges, from the types' attributes and units; rules between keys |
@@ -42,6 +43,7 @@ mod schema;
 mod shape;
 mod show;
 mod source;
+mod space;
 #[cfg(test)]
 mod tests;
 mod to_params;
@@ -67,6 +69,10 @@ pub use robot::{Odometry, Places, Robot, Sensor};
 pub use schema::{meaning, schema};
 pub use show::{defaults_toml, origins, plain_toml, resolved_toml};
 pub use source::{Origin, Place};
+pub use space::{
+    Camera, Cave3dWorld, Maps3d, MeshWorld, Metrics3d, Office3dWorld, Pillars3dWorld, Planner3d,
+    RelativeMap3d, Rooms3dWorld, World3d,
+};
 pub use world::{
     ImageWorld, MapServerWorld, MovingAiWorld, PaperMap, PaperWorld, PolygonsWorld, ThesisMap,
     ThesisWorld, World,

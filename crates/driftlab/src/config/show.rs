@@ -7,11 +7,13 @@ use toml::Value;
 
 use super::document::join;
 use super::schema::{Property, is_variant_table, properties, property_at, resolved, schema, words};
+use super::space::is_only_of_the_plane;
 use super::{
-    ActiveAreaMap, CavesWorld, Config, CorrectedPolygonsMap, CorridorWorld, ExtendedMap,
-    GridCorrectedMap, GridMap, ImageWorld, Loaded, MapServerWorld, MazeWorld, MovingAiWorld,
-    Origin, PaperWorld, PillarsWorld, PolygonsWorld, RapidPlanner, RelativeMap, Replay, RoomsWorld,
-    RunSweep, Start, SurveyPlanner, ThesisWorld,
+    ActiveAreaMap, Camera, Cave3dWorld, CavesWorld, Config, CorrectedPolygonsMap, CorridorWorld,
+    ExtendedMap, GridCorrectedMap, GridMap, ImageWorld, Loaded, MapServerWorld, MazeWorld,
+    MeshWorld, Metrics3d, MovingAiWorld, Office3dWorld, Origin, PaperWorld, Pillars3dWorld,
+    PillarsWorld, Planner3d, PolygonsWorld, RapidPlanner, RelativeMap, RelativeMap3d, Replay,
+    Rooms3dWorld, RoomsWorld, RunSweep, Start, SurveyPlanner, ThesisWorld,
 };
 
 /// The resolved config as TOML, each value with its origin as a comment.
@@ -19,7 +21,7 @@ use super::{
 /// The text is itself a config that means the same, from the same folder.
 pub fn resolved_toml(loaded: &Loaded) -> String {
     let mut lines = Vec::new();
-    let table = table_of(&loaded.config);
+    let table = counting_table(&loaded.config);
     write_resolved(&table, "", &|path| Some(loaded.origin(path)), &mut lines);
     aligned(&lines)
 }
@@ -36,7 +38,7 @@ pub fn origins(loaded: &Loaded) -> BTreeMap<String, String> {
         }
     }
     let mut all = BTreeMap::new();
-    walk(&table_of(&loaded.config), "", loaded, &mut all);
+    walk(&counting_table(&loaded.config), "", loaded, &mut all);
     all
 }
 
@@ -46,8 +48,21 @@ pub fn origins(loaded: &Loaded) -> BTreeMap<String, String> {
 /// For a map file whose name is not UTF-8.
 pub fn plain_toml(config: &Config) -> Result<String, toml::ser::Error> {
     let mut lines = Vec::new();
-    write_resolved(&toml::Table::try_from(config)?, "", &|_| None, &mut lines);
+    let mut table = toml::Table::try_from(config)?;
+    keep_what_counts(config, &mut table);
+    write_resolved(&table, "", &|_| None, &mut lines);
     Ok(aligned(&lines))
+}
+
+fn counting_table(config: &Config) -> toml::Table {
+    let mut table = table_of(config);
+    keep_what_counts(config, &mut table);
+    table
+}
+
+/// In space the tables of the plane say nothing, and are refused where they are read.
+fn keep_what_counts(config: &Config, table: &mut toml::Table) {
+    table.retain(|key, _| !(config.is_of_space() && is_only_of_the_plane(key)));
 }
 
 fn table_of(config: &impl serde::Serialize) -> toml::Table {
@@ -136,7 +151,7 @@ pub fn defaults_toml() -> String {
 /// Defaults of the tables that a config may leave out; the first of each variant is live.
 fn optional_tables() -> Vec<(&'static str, bool, toml::Table)> {
     vec![
-        ("start", false, table_of(&Start::default())),
+        ("start", false, table_of(&Start { z_m: Some(0.0), ..Start::default() })),
         ("world.paper", true, table_of(&PaperWorld::default())),
         ("world.thesis", false, table_of(&ThesisWorld::default())),
         ("world.corridor", false, table_of(&CorridorWorld::default())),
@@ -164,6 +179,19 @@ fn optional_tables() -> Vec<(&'static str, bool, toml::Table)> {
         ("world.maze", false, table_of(&MazeWorld::default())),
         ("world.pillars", false, table_of(&PillarsWorld::default())),
         ("world.caves", false, table_of(&CavesWorld::default())),
+        (
+            "world3d.mesh",
+            false,
+            table_of(&MeshWorld { file: "house.obj".into(), ..MeshWorld::default() }),
+        ),
+        ("world3d.rooms", false, table_of(&Rooms3dWorld::default())),
+        ("world3d.office", false, table_of(&Office3dWorld::default())),
+        ("world3d.pillars", false, table_of(&Pillars3dWorld::default())),
+        ("world3d.cave", false, table_of(&Cave3dWorld::default())),
+        ("camera", false, table_of(&Camera::default())),
+        ("map3d.relative", false, table_of(&RelativeMap3d::default())),
+        ("planner3d", false, table_of(&Planner3d::default())),
+        ("metrics3d", false, table_of(&Metrics3d::default())),
         ("map.relative", true, table_of(&RelativeMap::default())),
         ("map.grid", false, table_of(&GridMap::default())),
         ("map.grid_corrected", false, table_of(&GridCorrectedMap::default())),

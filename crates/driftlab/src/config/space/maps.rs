@@ -1,0 +1,87 @@
+//! The maps of space: each table under `[map3d]` is one representation.
+
+use maps3d::ViewOptions;
+use maps3d::reduce::{InverseDepth, Method, ReduceOptions, Stop};
+use maps3d::relative::RelativeParams;
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Vertices of a view, unless told otherwise.
+const VERTICES: u32 = 684;
+
+/// Which representations of space are built.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct Maps3d {
+    /// Local polyhedra on a pose graph, consolidated relative to each other (after \[ISRR19\] 4.4).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub relative: Option<RelativeMap3d>,
+}
+
+impl Maps3d {
+    /// The keys of the representations that are built, in the order in which they run.
+    pub fn keys(&self) -> Vec<&'static str> {
+        let all = [("relative", self.relative.is_some())];
+        all.into_iter().filter(|(_, there)| *there).map(|(key, _)| key).collect()
+    }
+}
+
+/// Parameters of `[map3d.relative]`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize, JsonSchema)]
+#[serde(deny_unknown_fields, default)]
+pub struct RelativeMap3d {
+    /// Vertices of each view's polyhedron, the camera not counted (\[Mos15\] 6: 684).
+    #[schemars(range(min = 4, max = 16_384))]
+    pub vertices: u32,
+    /// Views nearer than this along the graph are consolidated, metres (R in \[ISRR19\] 4.3).
+    #[schemars(range(min = 0.0))]
+    pub consolidation_radius_m: f64,
+    /// By how much a volume is smaller than its polyhedron where it closes frontier of others, metres of
+    /// depth.
+    #[schemars(range(min = 0.0))]
+    pub shrink_m: f64,
+    /// Frontier so near behind an obstacle face of another view is closed as wall, metres; 0 for none.
+    #[schemars(range(min = 0.0))]
+    pub wall_closing_m: f64,
+    /// Frontier that hangs together over less than this does not count, square metres.
+    #[schemars(range(min = 0.0, max = 1e6))]
+    pub sliver_m2: f64,
+    /// Large frontier is told as points about so far apart, metres.
+    #[schemars(range(min = 0.01))]
+    pub point_spacing_m: f64,
+}
+
+impl Default for RelativeMap3d {
+    fn default() -> Self {
+        let good = RelativeParams::default();
+        Self {
+            vertices: VERTICES,
+            consolidation_radius_m: good.consolidation_radius_m,
+            shrink_m: good.shrink_m,
+            wall_closing_m: good.wall_closing_m,
+            sliver_m2: good.sliver_m2,
+            point_spacing_m: good.point_spacing_m,
+        }
+    }
+}
+
+impl From<&RelativeMap3d> for RelativeParams {
+    fn from(map: &RelativeMap3d) -> Self {
+        Self {
+            view: view_of(map.vertices),
+            consolidation_radius_m: map.consolidation_radius_m,
+            shrink_m: map.shrink_m,
+            wall_closing_m: map.wall_closing_m,
+            sliver_m2: map.sliver_m2,
+            point_spacing_m: map.point_spacing_m,
+            ..Self::default()
+        }
+    }
+}
+
+/// How a depth image becomes a polyhedron of so many vertices.
+fn view_of(vertices: u32) -> ViewOptions {
+    let method = Method::InverseDepth(InverseDepth::default());
+    let reduce = Some(ReduceOptions::new(method, Stop::Vertices(vertices as usize)));
+    ViewOptions { reduce, ..ViewOptions::default() }
+}
