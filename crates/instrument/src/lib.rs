@@ -3,6 +3,7 @@
 mod columns;
 mod depth;
 mod error;
+mod flight;
 mod inspect;
 mod layout;
 mod optimisation;
@@ -15,6 +16,7 @@ mod stage;
 
 pub use depth::{DEPTH_EVENTS, DepthRecording, DepthRecordingOptions};
 pub use error::InstrumentError;
+pub use flight::{FlightOptions, FlightRecorder, FlightRecording, FlightStep};
 pub use inspect::{
     Difference, EntityInfo, EventCount, Inspection, TimelineInfo, declared_events, diff,
     fingerprint, inspect,

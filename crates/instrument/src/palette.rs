@@ -11,6 +11,12 @@ pub(crate) const TRUE_PATH: Rgba = rgb(125, 160, 220);
 pub(crate) const TRUE_VIEW: Rgba = rgb(150, 40, 160);
 pub(crate) const ROBOT: Rgba = rgb(20, 60, 210);
 
+/// Of space, before a dark background.
+pub(crate) const SURFACE: Rgba = rgb(170, 175, 185);
+pub(crate) const TRUE_SURFACE: Rgba = rgb(120, 126, 140);
+pub(crate) const TRUE_SEEN: Rgba = rgb(90, 220, 110);
+pub(crate) const TRUE_UNSEEN: Rgba = rgb(110, 110, 150);
+
 pub(crate) const OBSTACLE: Rgba = rgb(110, 10, 20);
 pub(crate) const FRONTIER: Rgba = rgb(255, 120, 0);
 pub(crate) const IGNORED: Rgba = rgb(240, 200, 110);

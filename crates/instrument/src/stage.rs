@@ -16,6 +16,7 @@ use crate::columns::{Rgba, VARIANT, fixed};
 use crate::recording::{ABOUT, METRICS, RESULT};
 
 /// A recording's stream, and the file that it goes to.
+#[derive(Clone)]
 pub(crate) struct Stage {
     pub stream: RecordingStream,
     path: PathBuf,

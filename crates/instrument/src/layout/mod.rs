@@ -2,6 +2,7 @@
 
 mod arrange;
 mod depth;
+mod flight;
 mod graph;
 mod parts;
 mod solid;
@@ -9,6 +10,7 @@ mod text;
 mod views;
 
 pub(crate) use depth::{DEPTH_PLOTS, DepthLook, send_depth};
+pub(crate) use flight::send_flight;
 pub(crate) use graph::{GraphLook, send_graph};
 pub(crate) use solid::send_solid;
 pub(crate) use text::{about, result};

@@ -1,0 +1,117 @@
+//! Every event in order: a line of text each, and what it draws.
+
+use explore::FlightEvent;
+use maps3d::DepthEvent;
+use maps3d::relative::ConsolidationEvent;
+use probe::Probe;
+
+use super::views::{self, ClosedFaces};
+use super::{FlightRecorder, looks, planner};
+use crate::{Family, Level};
+
+impl Probe<FlightEvent<'_>> for FlightRecorder {
+    fn on(&self) -> bool {
+        self.ink.is_on()
+    }
+
+    fn emit(&mut self, event: FlightEvent<'_>) {
+        // The graph is kept whole, whatever is thinned.
+        match event {
+            FlightEvent::VertexAdded { odom_from_vertex, .. } => {
+                self.odom_from_vertex.push(odom_from_vertex);
+                self.graph.vertex(self.world_from_start * odom_from_vertex);
+                self.graph_grew = true;
+            }
+            FlightEvent::EdgeAdded { kind, a, b, .. } => {
+                self.graph.edge(kind, a, b);
+                self.graph_grew = true;
+            }
+            _ => {}
+        }
+        let family = family_of(&event);
+        if !self.takes(family) {
+            return;
+        }
+        if self.level == Level::Full {
+            self.next_event();
+            let line = planner::line(&event);
+            self.ink.say(family.name(), event.variant(), format_args!("{line}"));
+        }
+        if let FlightEvent::Looked { hovering, vertex_from_camera, image } = event {
+            self.looked(&hovering, &vertex_from_camera, image);
+        }
+        if family == Family::Planner {
+            self.planned = true;
+            planner::draw(&mut self.ink, &event);
+        }
+    }
+}
+
+/// What an event of the flight is about.
+fn family_of(event: &FlightEvent<'_>) -> Family {
+    match event {
+        FlightEvent::Looked { .. } => Family::Sensing,
+        FlightEvent::VertexAdded { .. } | FlightEvent::EdgeAdded { .. } => Family::PoseGraph,
+        _ => Family::Planner,
+    }
+}
+
+impl Probe<DepthEvent<'_>> for FlightRecorder {
+    fn on(&self) -> bool {
+        self.takes(Family::Sensing)
+    }
+
+    fn emit(&mut self, event: DepthEvent<'_>) {
+        if !looks::is_told(&event) {
+            return;
+        }
+        if self.level == Level::Full {
+            self.next_event();
+            let line = looks::line(&event);
+            self.ink.say(Family::Sensing.name(), event.variant(), format_args!("{line}"));
+        }
+        looks::polyhedron(&mut self.ink, &event);
+    }
+}
+
+impl Probe<ConsolidationEvent<'_>> for FlightRecorder {
+    fn on(&self) -> bool {
+        self.ink.is_on()
+    }
+
+    fn emit(&mut self, event: ConsolidationEvent<'_>) {
+        self.views.note(&event);
+        if !self.takes(Family::Consolidation) {
+            return;
+        }
+        if self.level == Level::Full {
+            let next = ClosedFaces::of(&event);
+            let joined = match (&mut self.closed, &next) {
+                (Some(closed), Some(next)) => closed.join(next),
+                _ => false,
+            };
+            if !joined {
+                self.tell_closed();
+                self.closed = next;
+            }
+            if self.closed.is_none() {
+                self.next_event();
+                let line = views::line(&event);
+                self.ink.say(Family::Consolidation.name(), event.variant(), format_args!("{line}"));
+            }
+        }
+        if let ConsolidationEvent::Settled { map, .. } = event {
+            self.views.settle(&mut self.ink, map);
+        }
+    }
+}
+
+impl FlightRecorder {
+    /// Tells of the faces that were closed in a row, if any were.
+    fn tell_closed(&mut self) {
+        let Some(closed) = self.closed.take() else { return };
+        self.next_event();
+        let line = closed.line();
+        self.ink.say(Family::Consolidation.name(), "Closed", format_args!("{line}"));
+    }
+}

@@ -1,0 +1,92 @@
+//! What is to be looked at, from where, and the way there; drawn in the frame of a vertex.
+
+use explore::FlightEvent;
+use explore::flight::Target;
+use geometry::Point3;
+use maps3d::FlightRoute;
+
+use super::ink::{Ink, dots, lines};
+use crate::palette;
+
+/// The best places that are drawn of those that were scored.
+const MOST_SCORED: usize = 200;
+
+/// Draws what an event of the planner is about under `belief/planner`.
+pub(super) fn draw(ink: &mut Ink, event: &FlightEvent<'_>) {
+    match event {
+        FlightEvent::ViewpointsScored { targets, scored, .. } => {
+            let at: Vec<Point3> = targets.iter().map(|target: &Target| target.at).collect();
+            ink.draw("belief/planner/targets", &dots(&at, &[palette::FRONTIER], 4.0));
+            let shown = &scored[..scored.len().min(MOST_SCORED)];
+            let best = shown.first().map_or(1.0, |(_, score)| score.max(1e-9));
+            let places: Vec<Point3> = shown.iter().map(|(place, _)| *place).collect();
+            let colours: Vec<_> =
+                shown.iter().map(|(_, score)| palette::ramp(1.0 - score / best)).collect();
+            ink.draw("belief/planner/viewpoints", &dots(&places, &colours, 2.5));
+        }
+        FlightEvent::ViewpointChosen { place_in_vertex, .. } => {
+            ink.draw("belief/planner/goal", &dots(&[*place_in_vertex], &[palette::GOAL], 6.0));
+            let way = vec![Point3::origin(), *place_in_vertex];
+            ink.draw("belief/planner/way", &lines(&[way], palette::ROUTE, 2.0));
+        }
+        FlightEvent::RoutePlanned { hovering, route: FlightRoute::Fly(points), .. } => {
+            let body = hovering.vertex_from_body;
+            let mut way = vec![Point3::from(body.translation)];
+            way.extend(points.iter().map(|point| body.transform(point)));
+            ink.draw("belief/planner/way", &lines(&[way], palette::ROUTE, 2.0));
+        }
+        FlightEvent::FrontierGivenUp { place_in_vertex, .. } => {
+            let mark = dots(&[*place_in_vertex], &[palette::GIVEN_UP], 6.0);
+            ink.draw("belief/planner/given_up", &mark);
+        }
+        _ => {}
+    }
+}
+
+/// Takes the marks of the step before away.
+pub(super) fn wipe(ink: &mut Ink) {
+    for part in ["targets", "viewpoints", "goal", "way", "given_up"] {
+        ink.draw(&format!("belief/planner/{part}"), &rerun::Clear::flat());
+    }
+}
+
+/// One line about an event of the planner.
+pub(super) fn line(event: &FlightEvent<'_>) -> String {
+    match event {
+        FlightEvent::StateChanged { from, to } => format!("{from:?} to {to:?}"),
+        FlightEvent::VertexAdded { vertex, .. } => format!("vertex {vertex}"),
+        FlightEvent::EdgeAdded { kind, a, b, a_from_b, .. } => {
+            format!("{kind:?} from {a} to {b}, {:.2} m", a_from_b.distance())
+        }
+        FlightEvent::Turned { yaw_rad } => format!("by {:.0} degrees", yaw_rad.to_degrees()),
+        FlightEvent::Looked { hovering, image, .. } => format!(
+            "{} x {} pixels from {}",
+            image.columns,
+            image.rows(),
+            super::looks::place(hovering)
+        ),
+        FlightEvent::ViewpointsScored { at, targets, scored } => format!(
+            "{} places from vertex {at} for {} points of frontier",
+            scored.len(),
+            targets.len()
+        ),
+        FlightEvent::ViewpointChosen { at, area_m2, margin_m, .. } => {
+            format!("from vertex {at}: {area_m2:.2} m² in view, margin {margin_m:.2} m")
+        }
+        FlightEvent::RoutePlanned { hovering, route, length_m } => {
+            let how = match route {
+                FlightRoute::Repeat(legs) => format!("{} legs along the graph", legs.len()),
+                FlightRoute::Fly(points) => format!("{} straight legs", points.len()),
+            };
+            format!("{length_m:.1} m from vertex {}: {how}", hovering.vertex)
+        }
+        FlightEvent::Flew { distance_m } => format!("{distance_m:.2} m"),
+        FlightEvent::LegRepeated { from, to, length_m } => {
+            format!("from {from} to {to}, {length_m:.2} m")
+        }
+        FlightEvent::FrontierGivenUp { owner, area_m2, why, .. } => {
+            format!("{area_m2:.3} m² of vertex {owner}: {why:?}")
+        }
+        FlightEvent::Finished { ending } => format!("{ending:?}"),
+    }
+}
