@@ -4,6 +4,7 @@ pub mod command;
 pub mod config;
 pub mod export;
 mod files;
+pub mod flight;
 pub mod logs;
 pub mod replay;
 mod report;

@@ -1,5 +1,7 @@
 //! `driftlab run`: one experiment.
 
+mod flight;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -12,7 +14,7 @@ use super::failure::Failure;
 use super::out::Out;
 use super::progress::Bar;
 use super::table::table;
-use crate::config::Level;
+use crate::config::{Level, Loaded};
 use crate::export::ExportFolder;
 use crate::run::{
     Experiment, Input, Outcome, RunFolder, StepRow, files, names, run_experiment, to_json,
@@ -23,10 +25,12 @@ pub(super) fn run(args: &RunArgs, out: &Out) -> Result<(), Failure> {
     if loaded.config.sweep.is_some() {
         out.note("note: one run alone; `driftlab sweep` runs what [sweep] asks for");
     }
-    let default = || PathBuf::from("recordings").join(&loaded.config.name);
-    let dir = args.out.clone().unwrap_or_else(default);
+    let dir = out_dir(args, &loaded);
     RunFolder::check(&dir, args.force)?;
     check_recording(args, loaded.config.record.level)?;
+    if loaded.config.is_of_space() {
+        return flight::run(args, &loaded, &dir, out);
+    }
     let experiment = Experiment::prepare(&loaded)?;
     for warning in &experiment.place.warnings {
         out.note(&format!("warning: {warning}"));
@@ -50,7 +54,7 @@ pub(super) fn run(args: &RunArgs, out: &Out) -> Result<(), Failure> {
     let recording = args.record.clone().unwrap_or_else(|| folder.recording());
     let export = args.export.as_deref().map(ExportFolder::create);
     let mut export = export.transpose().map_err(|error| Failure::Input(error.into()))?;
-    let mut bars = Bars { out, current: None };
+    let mut bars = Bars::new(out);
     let (about, sink) = (loaded.header(), export.as_mut());
     let outcome = run_experiment(&experiment, &recording, sink, about, &mut |row| {
         bars.step(row);
@@ -66,15 +70,26 @@ pub(super) fn run(args: &RunArgs, out: &Out) -> Result<(), Failure> {
     }
 
     report(&dir, &outcome, out)?;
+    wrote(args, &dir, experiment.config.record.level, out);
+    Ok(())
+}
+
+/// Where the results go.
+fn out_dir(args: &RunArgs, loaded: &Loaded) -> PathBuf {
+    let default = || PathBuf::from("recordings").join(&loaded.config.name);
+    args.out.clone().unwrap_or_else(default)
+}
+
+/// Says where the results are, and how to look at them.
+fn wrote(args: &RunArgs, dir: &Path, level: Level, out: &Out) {
     out.note(&format!("wrote {}", dir.display()));
     if let Some(folder) = &args.export {
         out.note(&format!("wrote {}", folder.display()));
     }
-    if experiment.config.record.level != Level::Off {
-        let shown = if args.record.is_some() { recording } else { dir.join(names::RECORDING) };
+    if level != Level::Off {
+        let shown = args.record.clone().unwrap_or_else(|| dir.join(names::RECORDING));
         out.note(&format!("step through it with: driftlab view {}", shown.display()));
     }
-    Ok(())
 }
 
 /// A recording somewhere else must not hit a file that is there already.
@@ -147,19 +162,28 @@ struct Bars<'a> {
     current: Option<(String, Bar)>,
 }
 
-impl Bars<'_> {
+impl<'a> Bars<'a> {
+    fn new(out: &'a Out) -> Self {
+        Self { out, current: None }
+    }
+
     fn step(&mut self, row: &StepRow) {
-        if self.current.as_ref().is_none_or(|(map, _)| *map != row.map) {
+        self.show(&row.map, row.coverage, || {
+            format!(
+                "seen, step {}, {:.0} m, {:.1} m of frontier open",
+                row.step, row.distance_m, row.frontier_open_m
+            )
+        });
+    }
+
+    /// Shows how far the robot of a map has come.
+    fn show(&mut self, map: &str, coverage: f64, words: impl Fn() -> String) {
+        if self.current.as_ref().is_none_or(|(current, _)| current != map) {
             self.clear();
-            self.current = Some((row.map.clone(), Bar::new(&row.map, self.out)));
+            self.current = Some((map.to_owned(), Bar::new(map, self.out)));
         }
         if let Some((_, bar)) = &mut self.current {
-            bar.update(row.coverage, || {
-                format!(
-                    "seen, step {}, {:.0} m, {:.1} m of frontier open",
-                    row.step, row.distance_m, row.frontier_open_m
-                )
-            });
+            bar.update(coverage, words);
         }
     }
 

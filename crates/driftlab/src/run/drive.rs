@@ -11,8 +11,9 @@ use posegraph::EdgeKind;
 use probe::VertexId;
 use worlds::{RobotParams, SimRobot, World2d};
 
+use super::AtWork;
 use super::disagree::{CAUSES, Disagreement, disagreement};
-use super::sides::{AtWork, Side, Telling, TruePoses, map_of};
+use super::sides::{Side, Telling, TruePoses, map_of};
 use super::timed::{TimedProbe, TimedRobot};
 use super::{CorrectionTiming, MapMetrics, MapTiming, StepRow, StepSeen, Watch, quantile};
 use crate::config::Config;
@@ -321,7 +322,8 @@ impl Rider {
     }
 }
 
-fn state_name(state: State) -> &'static str {
+/// The name of a state in tables.
+pub(crate) fn state_name(state: State) -> &'static str {
     match state {
         State::Reactive => "reactive",
         State::Deliberate => "deliberate",
@@ -329,7 +331,8 @@ fn state_name(state: State) -> &'static str {
     }
 }
 
-fn ending_name(ending: Option<Ending>) -> &'static str {
+/// How a run ended, in a word.
+pub(crate) fn ending_name(ending: Option<Ending>) -> &'static str {
     match ending {
         Some(Ending::Complete) => "complete",
         Some(Ending::StepLimit) => "step_limit",

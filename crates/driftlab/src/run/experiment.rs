@@ -35,13 +35,18 @@ impl Experiment {
 
     /// The maps of each robot; the first of a robot's maps steers it.
     pub fn robots(&self) -> Vec<Vec<&'static str>> {
-        let maps = self.config.map.keys();
-        match maps.iter().find(|&&map| map == self.config.compare.drive) {
-            None => maps.into_iter().map(|map| vec![map]).collect(),
-            Some(&driver) => {
-                let others = maps.iter().copied().filter(|&map| map != driver);
-                vec![std::iter::once(driver).chain(others).collect()]
-            }
+        robots_of(&self.config)
+    }
+}
+
+/// The maps of each robot of an experiment; the first of a robot's maps steers it.
+pub(crate) fn robots_of(config: &Config) -> Vec<Vec<&'static str>> {
+    let maps = config.map_keys();
+    match maps.iter().find(|&&map| map == config.compare.drive) {
+        None => maps.into_iter().map(|map| vec![map]).collect(),
+        Some(&driver) => {
+            let others = maps.iter().copied().filter(|&map| map != driver);
+            vec![std::iter::once(driver).chain(others).collect()]
         }
     }
 }

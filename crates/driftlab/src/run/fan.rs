@@ -30,20 +30,38 @@ impl<W> Fan<W> {
         self.watchers
     }
 
-    fn current(&self) -> Option<&W> {
+    /// The listeners, in the order of the maps.
+    pub(crate) fn watchers(&self) -> &[W] {
+        &self.watchers
+    }
+
+    /// The same, to be told something.
+    pub(crate) fn watchers_mut(&mut self) -> &mut [W] {
+        &mut self.watchers
+    }
+
+    /// Which map is at work is asked of this from now on.
+    pub(crate) fn listen_to(&mut self, at_work: &AtWork) {
+        self.at_work = at_work.clone();
+    }
+
+    pub(crate) fn current(&self) -> Option<&W> {
         self.watchers.get(self.at_work.current()?)
     }
 
-    fn current_mut(&mut self) -> Option<&mut W> {
+    pub(crate) fn current_mut(&mut self) -> Option<&mut W> {
         self.watchers.get_mut(self.at_work.current()?)
     }
 }
 
+/// What a map tells goes to the listener of that map.
 macro_rules! of_the_map_at_work {
     ($($event:ident),+) => {$(
-        impl<W: for<'a> Probe<$event<'a>>> Probe<$event<'_>> for Fan<W> {
+        impl<W: for<'a> ::probe::Probe<$event<'a>>> ::probe::Probe<$event<'_>>
+            for $crate::run::Fan<W>
+        {
             fn on(&self) -> bool {
-                self.current().is_some_and(|watcher| Probe::<$event<'_>>::on(watcher))
+                self.current().is_some_and(|watcher| ::probe::Probe::<$event<'_>>::on(watcher))
             }
 
             fn emit(&mut self, event: $event<'_>) {
@@ -54,6 +72,8 @@ macro_rules! of_the_map_at_work {
         }
     )+};
 }
+
+pub(crate) use of_the_map_at_work;
 
 of_the_map_at_work!(VolumeEvent, ConsolidationEvent, GridEvent, CorrectionEvent, PolygonEvent);
 
@@ -81,7 +101,7 @@ impl<W: Watch> Watch for Fan<W> {
     type Error = W::Error;
 
     fn maps(&mut self, at_work: &AtWork) {
-        self.at_work = at_work.clone();
+        self.listen_to(at_work);
     }
 
     fn place(&mut self, world: &World2d, coverage: &Coverage) -> Result<(), W::Error> {

@@ -24,7 +24,7 @@ use crate::config::{
 const JITTER_STREAM: u64 = 0x2000;
 
 /// How often a jittered start that falls into a wall is drawn again.
-const JITTER_TRIES: usize = 1000;
+pub(crate) const JITTER_TRIES: usize = 1000;
 
 /// The place of an experiment, and the files that it was read from.
 #[derive(Clone, Debug)]
@@ -209,18 +209,23 @@ fn with_start(world: World2d, start: Option<Se2>) -> Result<World2d, Trouble> {
     Ok(world.with_start(start)?)
 }
 
+/// Numbers drawn evenly from minus to plus `jitter_m`, by the stream of the start's jitter.
+pub(crate) fn jitter(seed: u64, jitter_m: f64) -> impl FnMut() -> f64 {
+    let mut draw = ChaCha8Rng::seed_from_u64(seed);
+    draw.set_stream(JITTER_STREAM);
+    move || {
+        let share = (draw.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
+        jitter_m * (2.0 * share - 1.0)
+    }
+}
+
 /// The world with its start moved by up to the jitter along each axis, to a free place.
 fn jittered(world: World2d, config: &Config) -> Result<World2d, Trouble> {
     let jitter_m = config.start_jitter_m;
     if jitter_m == 0.0 {
         return Ok(world);
     }
-    let mut draw = ChaCha8Rng::seed_from_u64(config.seed);
-    draw.set_stream(JITTER_STREAM);
-    let mut even = || {
-        let share = (draw.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;
-        jitter_m * (2.0 * share - 1.0)
-    };
+    let mut even = jitter(config.seed, jitter_m);
     let start = world.world_from_start();
     let from = Point2::from(start.translation);
     let fits = |at: &Point2| room_m(&world, at) > config.robot.radius_m;

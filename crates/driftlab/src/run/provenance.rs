@@ -47,6 +47,16 @@ pub struct Provenance {
 }
 
 impl Provenance {
+    /// Where a run of this program came from: its seed, how each map's run ended, and its files.
+    pub fn of(
+        seed: u64,
+        termination: impl Iterator<Item = (String, String)>,
+        inputs: Vec<Input>,
+    ) -> Self {
+        let termination = termination.collect();
+        Self { version: VERSION, git_hash: GIT_HASH, seed, termination, inputs }
+    }
+
     /// The text of `provenance.toml`.
     pub fn to_toml(&self) -> Result<String, toml::ser::Error> {
         toml::to_string(self)

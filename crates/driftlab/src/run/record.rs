@@ -25,11 +25,32 @@ pub fn start_recording(
     about: &str,
 ) -> Result<Recording, RunError> {
     let config = &experiment.config;
-    let level = match config.record.level {
+    let scope_m = config.map.relative.as_ref().map_or(0.0, |map| map.consolidation_radius_m);
+    Ok(Recording::create(RecordingOptions {
+        path: path.to_owned(),
+        name: config.name.clone(),
+        level: level_of(config.record.level),
+        every: every_of(&config.record.every),
+        maps: experiment.robots().iter().flatten().map(|kind| MapOptions::of_kind(kind)).collect(),
+        about: about.to_owned(),
+        config: plain_toml(config)?,
+        bounds_in_world: experiment.place.world.bounds(),
+        follow: false,
+        sight_m: scope_m.min(20.0) + config.sensor.range_m,
+    })?)
+}
+
+/// How much a config asks to be recorded.
+pub(crate) fn level_of(level: config::Level) -> Level {
+    match level {
         config::Level::Off => Level::Off,
         config::Level::Summary => Level::Summary,
         config::Level::Full => Level::Full,
-    };
+    }
+}
+
+/// Which steps of which family a config asks to be recorded.
+pub(crate) fn every_of(every: &config::Every) -> Every {
     let config::Every {
         sensing,
         pose_graph,
@@ -39,8 +60,8 @@ pub fn start_recording(
         correction,
         polygons,
         truth,
-    } = config.record.every;
-    let every = Every::STEP
+    } = *every;
+    Every::STEP
         .with(Family::Sensing, sensing)
         .with(Family::PoseGraph, pose_graph)
         .with(Family::Consolidation, consolidation)
@@ -48,20 +69,7 @@ pub fn start_recording(
         .with(Family::Planner, planner)
         .with(Family::Correction, correction)
         .with(Family::Polygons, polygons)
-        .with(Family::Truth, truth);
-    let scope_m = config.map.relative.as_ref().map_or(0.0, |map| map.consolidation_radius_m);
-    Ok(Recording::create(RecordingOptions {
-        path: path.to_owned(),
-        name: config.name.clone(),
-        level,
-        every,
-        maps: experiment.robots().iter().flatten().map(|kind| MapOptions::of_kind(kind)).collect(),
-        about: about.to_owned(),
-        config: plain_toml(config)?,
-        bounds_in_world: experiment.place.world.bounds(),
-        follow: false,
-        sight_m: scope_m.min(20.0) + config.sensor.range_m,
-    })?)
+        .with(Family::Truth, truth)
 }
 
 impl Watch for Recorder {

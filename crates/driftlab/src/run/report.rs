@@ -5,16 +5,22 @@ use serde_json::Value;
 
 use super::Disagreement;
 
-/// What `metrics.json` holds: the same for the same config, seed and program.
+/// What `metrics.json` holds of a run in the plane.
+pub type MetricsReport = MapsMetrics<MapMetrics>;
+
+/// What `timing.json` holds of a run in the plane.
+pub type TimingReport = MapsTiming<MapTiming>;
+
+/// What `metrics.json` holds, with `M` of each map: the same for the same config, seed and program.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct MetricsReport {
+pub struct MapsMetrics<M: Serialize> {
     /// Name of the experiment.
     pub name: String,
     /// Its seed.
     pub seed: u64,
     /// Each map's result by its name, in the order in which they ran.
     #[serde(serialize_with = "as_object")]
-    pub maps: Vec<(String, MapMetrics)>,
+    pub maps: Vec<(String, M)>,
     /// Where maps that one robot feeds first disagreed about a frontier.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub disagreement: Option<Disagreement>,
@@ -83,12 +89,12 @@ pub struct MapMetrics {
     pub termination: String,
 }
 
-/// What `timing.json` holds: everything that depends on the clock or on memory.
+/// What `timing.json` holds, with `T` of each map: everything that depends on the clock or on memory.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct TimingReport {
+pub struct MapsTiming<T: Serialize> {
     /// Each map's cost by its name, in the order in which they ran.
     #[serde(serialize_with = "as_object")]
-    pub maps: Vec<(String, MapTiming)>,
+    pub maps: Vec<(String, T)>,
     /// Time of the whole command, seconds.
     pub wall_secs: f64,
 }

@@ -7,7 +7,7 @@ use instrument::{InstrumentError, Recorder};
 
 use super::{
     Disagreement, Experiment, Exporting, Fan, Input, MapRun, MetricsReport, Provenance, StepRow,
-    TimingReport, VERSION, drive, provenance::GIT_HASH, report, start_recording, to_parquet,
+    TimingReport, drive, report, start_recording, to_parquet,
 };
 use crate::export::{ExportError, ExportFolder};
 use crate::table::TableError;
@@ -33,6 +33,12 @@ pub enum RunError {
     /// The export cannot be written.
     #[error(transparent)]
     Export(#[from] ExportError),
+    /// A map of space cannot be made.
+    #[error(transparent)]
+    Map(#[from] maps3d::Maps3dError),
+    /// The robot cannot be put into its place.
+    #[error(transparent)]
+    World(#[from] worlds::WorldError),
     /// A report cannot be put into its form.
     #[error(transparent)]
     Report(#[from] serde_json::Error),
@@ -42,6 +48,12 @@ pub enum RunError {
     /// The config or the provenance cannot be put into its form.
     #[error(transparent)]
     Toml(#[from] toml::ser::Error),
+}
+
+impl From<std::convert::Infallible> for RunError {
+    fn from(never: std::convert::Infallible) -> Self {
+        match never {}
+    }
 }
 
 /// Runs every robot of an experiment, one after the other, and records them to `recording`; each leaves its
@@ -114,13 +126,8 @@ pub fn files(
     let ended = outcome.metrics.maps.iter();
     let mut inputs = vec![config_input];
     inputs.extend(experiment.place.inputs.iter().cloned());
-    let provenance = Provenance {
-        version: VERSION,
-        git_hash: GIT_HASH,
-        seed: experiment.config.seed,
-        termination: ended.map(|(name, map)| (name.clone(), map.termination.clone())).collect(),
-        inputs,
-    };
+    let ended = ended.map(|(name, map)| (name.clone(), map.termination.clone()));
+    let provenance = Provenance::of(experiment.config.seed, ended, inputs);
     Ok(vec![
         (names::CONFIG, crate::config::plain_toml(&experiment.config)?.into_bytes()),
         (names::STEPS, to_parquet(&outcome.rows)?),

@@ -1,8 +1,7 @@
-//! The maps of one robot: which of them is at work, what it cost, and poses that are given.
+//! The maps of one robot, and poses that are given.
 
-use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering};
 use std::sync::{Arc, Mutex, PoisonError};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use formats::log::Decision;
 use geometry::Point2;
@@ -22,6 +21,7 @@ use posegraph::PoseGraph;
 use probe::{EdgeId, IdVec, VertexId};
 use sensing::{Odometry, PlaceMatch, Repeated, Robot, Scan};
 
+use super::AtWork;
 use super::timed::TimedProbe;
 use crate::config::{Config, Poses};
 use crate::export::{Feed, gave_up};
@@ -105,43 +105,6 @@ impl Robot for Telling<'_> {
     }
 }
 
-/// Which map is at work, and how long each was: shared with the maps themselves.
-#[derive(Clone, Debug)]
-pub struct AtWork {
-    current: Arc<AtomicUsize>,
-    nanos: Arc<[AtomicU64]>,
-    corrections: Arc<[Mutex<Vec<Duration>>]>,
-}
-
-impl AtWork {
-    /// So many maps, none of them at work.
-    pub(crate) fn new(maps: usize) -> Self {
-        Self {
-            current: Arc::new(AtomicUsize::new(usize::MAX)),
-            nanos: (0..maps).map(|_| AtomicU64::new(0)).collect(),
-            corrections: (0..maps).map(|_| Mutex::default()).collect(),
-        }
-    }
-
-    /// The index of the map that is at work, if one is.
-    pub fn current(&self) -> Option<usize> {
-        let index = self.current.load(Ordering::Relaxed);
-        (index != usize::MAX).then_some(index)
-    }
-
-    /// The time that a map was at work since this was asked last.
-    pub(super) fn take(&self, map: usize) -> Duration {
-        Duration::from_nanos(self.nanos[map].swap(0, Ordering::Relaxed))
-    }
-
-    /// What each correction of a map has cost since this was asked last: the optimisation, and all
-    /// that the map did anew for it.
-    pub(super) fn take_corrections(&self, map: usize) -> Vec<Duration> {
-        let mut all = self.corrections[map].lock().unwrap_or_else(PoisonError::into_inner);
-        std::mem::take(&mut *all)
-    }
-}
-
 /// A map that says when it is at work, takes the time of it, and notes what it is fed.
 pub(super) struct Side {
     inner: Box<dyn ExplorationMap + Send>,
@@ -161,13 +124,7 @@ impl Side {
     }
 
     fn timed<T>(&mut self, work: impl FnOnce(&mut dyn ExplorationMap) -> T) -> T {
-        self.at_work.current.store(self.index, Ordering::Relaxed);
-        let start = Instant::now();
-        let result = work(self.inner.as_mut());
-        let nanos = u64::try_from(start.elapsed().as_nanos()).unwrap_or(u64::MAX);
-        self.at_work.nanos[self.index].fetch_add(nanos, Ordering::Relaxed);
-        self.at_work.current.store(usize::MAX, Ordering::Relaxed);
-        result
+        self.at_work.timed(self.index, || work(self.inner.as_mut()))
     }
 
     /// As [`timed`](Self::timed); a correction that comes of it is noted with its own time, without
@@ -184,8 +141,7 @@ impl Side {
         self.timed(|map| work(map, &mut heard));
         let spent = start.elapsed().saturating_sub(heard.spent);
         if self.inner.corrections() > before {
-            let all = &self.at_work.corrections[self.index];
-            all.lock().unwrap_or_else(PoisonError::into_inner).push(spent);
+            self.at_work.note_correction(self.index, spent);
         }
     }
 }

@@ -5,7 +5,7 @@ use std::time::{Duration, Instant};
 use probe::{Probe, VertexId};
 use sensing::{Odometry, PlaceMatch, Repeated, Robot, Scan};
 
-use super::sides::AtWork;
+use super::AtWork;
 
 /// A robot whose own time is taken.
 pub(super) struct TimedRobot<'a> {

@@ -1,15 +1,36 @@
 //! Coverage over distance, in few points.
 
+use crate::flight::FlightRow;
 use crate::run::StepRow;
 use crate::table::Row;
 
 /// Coverage is noted each time that it passes another such share.
 const SHARES: f64 = 128.0;
 
+/// What a curve needs of a step.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Passed {
+    step: u64,
+    distance_m: f64,
+    coverage: f64,
+}
+
+impl From<&StepRow> for Passed {
+    fn from(row: &StepRow) -> Self {
+        Self { step: row.step, distance_m: row.distance_m, coverage: row.coverage }
+    }
+}
+
+impl From<&FlightRow> for Passed {
+    fn from(row: &FlightRow) -> Self {
+        Self { step: row.step, distance_m: row.distance_m, coverage: row.coverage }
+    }
+}
+
 /// The rows of a curve: where coverage passed another 128th, the first step and the last.
 ///
 /// Between two points coverage rises by less than a 128th, then at once to the second.
-pub(super) fn curve(map: &str, steps: &[StepRow]) -> Vec<Row> {
+pub(super) fn curve(map: &str, steps: &[Passed]) -> Vec<Row> {
     let mut rows = Vec::new();
     let mut noted = f64::NEG_INFINITY;
     for (at, step) in steps.iter().enumerate() {
@@ -31,32 +52,14 @@ pub(super) fn curve(map: &str, steps: &[StepRow]) -> Vec<Row> {
 mod tests {
     use super::*;
     use crate::table::Cell;
-    use pose::Se2;
 
-    fn step(step: u64, coverage: f64) -> StepRow {
-        StepRow {
-            step,
-            map: "grid".into(),
-            distance_m: step as f64,
-            sim_time_secs: step as f64,
-            state: "reactive",
-            world_from_body: Se2::identity(),
-            odom_from_body: Se2::identity(),
-            coverage,
-            frontier_open_m: 0.0,
-            frontier_ignored_m: 0.0,
-            frontier_places: 0,
-            vertices: 0,
-            place_edges: 0,
-            scans: 0,
-            collisions: 0,
-            bumps: 0,
-        }
+    fn step(step: u64, coverage: f64) -> Passed {
+        Passed { step, distance_m: step as f64, coverage }
     }
 
     #[test]
     fn a_long_run_has_few_points_and_keeps_its_ends() {
-        let steps: Vec<StepRow> =
+        let steps: Vec<Passed> =
             (0..=10_000).map(|at| step(at, (at as f64 / 8000.0).min(1.0))).collect();
         let rows = curve("grid", &steps);
         assert_eq!(rows.len(), 130);

@@ -2,16 +2,12 @@
 
 use std::path::PathBuf;
 
-use probe::Off;
 use serde::Serialize;
-use serde_json::Value;
 
-use super::curve::curve;
 use super::job::{Job, Outcome, Plan};
-use crate::config::{ConfigError, Level, Loaded, Place};
-use crate::run::{
-    Experiment, GIT_HASH, Input, MapRun, RunError, VERSION, drive, run_experiment, to_json,
-};
+use super::prepared::Prepared;
+use crate::config::{ConfigError, Loaded, Place};
+use crate::run::{GIT_HASH, Input, RunError, VERSION};
 use crate::table::{Cell, Row};
 
 /// More runs than that are a mistake.
@@ -106,9 +102,10 @@ impl Experiments {
         for (labels, sets) in combinations {
             let combination = loaded.with(&sets)?;
             // A place that cannot be built is told now, not after hours.
-            let prepared = Experiment::prepare(&combination);
-            let place = prepared.map_err(|error| loaded.at_axis(error, &sets))?.place;
-            all.note(place.inputs, place.warnings);
+            let prepared = Prepared::new(&combination);
+            let prepared = prepared.map_err(|error| loaded.at_axis(error, &sets))?;
+            let (inputs, warnings) = prepared.into_notes();
+            all.note(inputs, warnings);
             for seed in 0..seeds {
                 let seed = first_seed.saturating_add(seed);
                 let labels = labels.iter().cloned().chain([("seed".to_owned(), seed.into())]);
@@ -149,25 +146,10 @@ impl Experiments {
         };
         let seed = self.first_seed.saturating_add(seed as u64);
         let loaded = loaded.with(&[format!("seed = {seed}")])?;
-        let experiment = Experiment::prepare(&loaded)?;
-        match &self.record {
-            Some(folder) if experiment.config.record.level != Level::Off => {
-                let file = folder.join(format!("{:05}.rrd", job.number));
-                let outcome =
-                    run_experiment(&experiment, &file, None, loaded.header(), &mut |_| ())?;
-                let maps = outcome.metrics.maps.iter().zip(&outcome.timing.maps);
-                let mut all = Outcome::default();
-                for ((name, metrics), (_, timing)) in maps {
-                    all.results.push(row_of(name, metrics)?);
-                    all.timing.push(row_of(name, timing)?);
-                    let own: Vec<_> =
-                        outcome.rows.iter().filter(|row| row.map == *name).cloned().collect();
-                    all.curves.extend(curve(name, &own));
-                }
-                Ok(all)
-            }
-            _ => Ok(outcome_of(&unrecorded(&experiment))?),
-        }
+        let prepared = Prepared::new(&loaded)?;
+        let file = self.record.as_ref().filter(|_| prepared.records());
+        let file = file.map(|folder| folder.join(format!("{:05}.rrd", job.number)));
+        Ok(prepared.run(file.as_deref(), loaded.header())?)
     }
 
     /// The text of the sweep's `provenance.toml`.
@@ -189,49 +171,5 @@ impl Experiments {
             runs: self.plan.jobs.len(),
             inputs: &self.inputs,
         })
-    }
-}
-
-/// Every robot of an experiment in turn, with nobody watching.
-fn unrecorded(experiment: &Experiment) -> Vec<MapRun> {
-    let Experiment { config, place, coverage } = experiment;
-    let mut runs = Vec::new();
-    for kinds in experiment.robots() {
-        match drive(config, &place.world, coverage, &kinds, &mut Off, &mut |_| ()) {
-            Ok(own) => runs.extend(own),
-            Err(never) => match never {},
-        }
-    }
-    runs
-}
-
-fn outcome_of(runs: &[MapRun]) -> Result<Outcome, RunError> {
-    let mut outcome = Outcome::default();
-    for run in runs {
-        outcome.results.push(row_of(run.name, &run.metrics)?);
-        outcome.timing.push(row_of(run.name, &run.timing)?);
-        outcome.curves.extend(curve(run.name, &run.rows));
-    }
-    Ok(outcome)
-}
-
-/// The name of a map and its numbers; tables inside become dotted names.
-fn row_of(map: &str, numbers: &impl Serialize) -> Result<Row, RunError> {
-    let mut row = vec![("map".to_owned(), map.into())];
-    flatten(&to_json(numbers)?, "", &mut row);
-    Ok(row)
-}
-
-fn flatten(value: &Value, path: &str, row: &mut Row) {
-    match value {
-        Value::Object(inner) => {
-            for (key, value) in inner {
-                let path = if path.is_empty() { key.clone() } else { format!("{path}.{key}") };
-                flatten(value, &path, row);
-            }
-        }
-        // Lists are for single runs.
-        Value::Array(_) => {}
-        plain => row.push((path.to_owned(), Cell::from_json(plain))),
     }
 }

@@ -12,6 +12,7 @@
 //! | `journal` | one line for each finished job; what a kill left of it |
 //! | `folder` | the files of a sweep, resuming, shards, merging |
 //! | `experiments` | one experiment over axes and seeds |
+//! | `prepared` | one combination, of the plane or of space |
 //! | `curve` | coverage over distance, in few points |
 //! | `outliers`, `summary` | robust methods against wrong loop closures, and their table |
 
@@ -22,6 +23,7 @@ mod job;
 mod journal;
 mod outliers;
 mod parallel;
+mod prepared;
 mod summary;
 
 pub use experiments::RunFailure;

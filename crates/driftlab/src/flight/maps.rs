@@ -1,0 +1,155 @@
+//! The maps of one flying robot, each with a stopwatch around it.
+
+use std::time::Instant;
+
+use geometry::Point3;
+use maps3d::relative::RelativeMap;
+use maps3d::{
+    FlightClearance, FlightRoute, FrontierPatch, Hovering, Known, Look, Map3d, Map3dProbe,
+    MapTally, MapWork, Maps3dError,
+};
+use pose::Se3;
+use posegraph::PoseGraph;
+use probe::{EdgeId, VertexId};
+
+use crate::config::Config;
+use crate::run::{AtWork, TimedProbe};
+
+/// The map of a kind, if the config builds it.
+///
+/// # Errors
+/// Where its parameters do not go together.
+pub(super) fn map_of(
+    config: &Config,
+    kind: &str,
+) -> Result<Option<Box<dyn Map3d + Send>>, Maps3dError> {
+    let Some(maps) = &config.map3d else { return Ok(None) };
+    let made: Option<Box<dyn Map3d + Send>> = match kind {
+        "relative" => match &maps.relative {
+            Some(map) => Some(Box::new(RelativeMap::new(map.into())?)),
+            None => None,
+        },
+        _ => None,
+    };
+    Ok(made)
+}
+
+/// A map that says when it is at work, and takes the time of it.
+pub(super) struct Side {
+    inner: Box<dyn Map3d + Send>,
+    index: usize,
+    at_work: AtWork,
+}
+
+impl Side {
+    pub(super) fn new(inner: Box<dyn Map3d + Send>, index: usize, at_work: &AtWork) -> Self {
+        Self { inner, index, at_work: at_work.clone() }
+    }
+
+    fn timed<T>(&mut self, work: impl FnOnce(&mut dyn Map3d) -> T) -> T {
+        self.at_work.timed(self.index, || work(self.inner.as_mut()))
+    }
+
+    /// As [`timed`](Self::timed); a correction that comes of it is noted with its own time, without
+    /// what listening took.
+    fn correcting(
+        &mut self,
+        probe: &mut dyn Map3dProbe,
+        work: impl FnOnce(&mut dyn Map3d, &mut dyn Map3dProbe),
+    ) {
+        let before = self.inner.work().corrections;
+        let start = Instant::now();
+        let at_work = self.at_work.clone();
+        let mut heard = TimedProbe::new(probe, &at_work, 0);
+        self.timed(|map| work(map, &mut heard));
+        let spent = start.elapsed().saturating_sub(heard.spent);
+        if self.inner.work().corrections > before {
+            self.at_work.note_correction(self.index, spent);
+        }
+    }
+}
+
+impl Map3d for Side {
+    fn kind(&self) -> &'static str {
+        self.inner.kind()
+    }
+
+    fn edges_added(
+        &mut self,
+        graph: &PoseGraph<Se3>,
+        edges: &[EdgeId],
+        probe: &mut dyn Map3dProbe,
+    ) {
+        self.correcting(probe, |map, probe| map.edges_added(graph, edges, probe));
+    }
+
+    fn edge_withdrawn(&mut self, graph: &PoseGraph<Se3>, edge: EdgeId, probe: &mut dyn Map3dProbe) {
+        self.correcting(probe, |map, probe| map.edge_withdrawn(graph, edge, probe));
+    }
+
+    fn poses_reestimated(&mut self, map_from_vertex: &[Se3], probe: &mut dyn Map3dProbe) {
+        self.correcting(probe, |map, probe| map.poses_reestimated(map_from_vertex, probe));
+    }
+
+    fn looked(&mut self, look: &Look<'_>, probe: &mut dyn Map3dProbe) -> Result<(), Maps3dError> {
+        let start = Instant::now();
+        let at_work = self.at_work.clone();
+        let mut heard = TimedProbe::new(probe, &at_work, 0);
+        let taken = self.timed(|map| map.looked(look, &mut heard));
+        self.at_work.note_look(self.index, start.elapsed().saturating_sub(heard.spent));
+        taken
+    }
+
+    fn tally(&self) -> MapTally {
+        self.inner.tally()
+    }
+
+    fn frontiers(&mut self, hovering: &Hovering, out: &mut Vec<FrontierPatch>) {
+        self.timed(|map| map.frontiers(hovering, out));
+    }
+
+    fn frontier_at(&self, vertex: VertexId) -> f64 {
+        self.inner.frontier_at(vertex)
+    }
+
+    fn route(
+        &mut self,
+        hovering: &Hovering,
+        clearance_m: f64,
+        comes_now: &dyn Fn(VertexId) -> bool,
+    ) -> Option<FlightRoute> {
+        self.timed(|map| map.route(hovering, clearance_m, comes_now))
+    }
+
+    fn clearance(
+        &mut self,
+        hovering: &Hovering,
+        to_in_body: &Point3,
+        leaving_m: f64,
+    ) -> FlightClearance {
+        self.timed(|map| map.clearance(hovering, to_in_body, leaving_m))
+    }
+
+    fn give_up(
+        &mut self,
+        hovering: &Hovering,
+        place_in_body: &Point3,
+        radius_m: f64,
+        everywhere: bool,
+        probe: &mut dyn Map3dProbe,
+    ) {
+        self.timed(|map| map.give_up(hovering, place_in_body, radius_m, everywhere, probe));
+    }
+
+    fn knows(&self, hovering: &Hovering, point_in_body: &Point3) -> Known {
+        self.inner.knows(hovering, point_in_body)
+    }
+
+    fn work(&self) -> MapWork {
+        self.inner.work()
+    }
+
+    fn bytes(&self) -> usize {
+        self.inner.bytes()
+    }
+}

@@ -1,0 +1,30 @@
+//! Running a robot that flies: the twin in space of [`run`](crate::run), with the same folder of results.
+//!
+//! | file | what |
+//! |---|---|
+//! | `experiment`, `place` | from a config to a place of space with a start |
+//! | `maps`, `timed`, `drive` | the maps of one robot, what they cost, and its run to its end |
+//! | `watch`, `fan`, `record` | who looks on: a recording, or nobody |
+//! | `session` | all robots of an experiment |
+//! | `report`, `steps` | the files of a run |
+
+mod drive;
+mod experiment;
+mod fan;
+mod maps;
+mod place;
+mod record;
+mod report;
+mod session;
+mod steps;
+mod timed;
+mod watch;
+
+pub use drive::{FlightRun, fly};
+pub use experiment::FlightExperiment;
+pub use place::{FlightPlace, build_flight_place};
+pub use record::start_flight_recording;
+pub use report::{FlightMetrics, FlightTiming};
+pub use session::{FlightOutcome, flight_files, run_flight};
+pub use steps::{FlightRow, flight_parquet};
+pub use watch::{FlightSeen, FlightWatch};
