@@ -125,7 +125,7 @@ mod tests {
         };
         let (matches, input) =
             read("# head\n1 2.5 0.1 0 3 0.2 2 # far\n\n1 3 0 0 0\n").expect("good");
-        assert_eq!((matches.len(), input.bytes), (2, 42));
+        assert_eq!((matches.len(), input.bytes), (2, 44));
         assert_eq!(matches[0].known, Moment::Stamp(1.0));
         assert!((matches[0].covariance[(0, 0)] - 0.04).abs() < 1e-12);
         for (text, found) in [
