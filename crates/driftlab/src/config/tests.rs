@@ -58,8 +58,13 @@ fn the_defaults_page_is_a_config_of_defaults() {
             line.strip_prefix("# ").filter(|l| l.starts_with('[') || l.contains(" = "))
         });
         let live = live.collect::<Vec<_>>().join("\n");
-        let others =
-            if live.starts_with("[world") { "[map.grid]" } else { "[world.paper]\n[map.relative]" };
+        let others = match live.split(['.', ']']).next() {
+            Some("[world") => "[map.grid]",
+            Some("[world3d") => "[map3d.relative]",
+            Some("[map3d") => "[world3d.rooms]",
+            Some("[camera" | "[planner3d" | "[metrics3d") => "[world3d.rooms]\n[map3d.relative]",
+            _ => "[world.paper]\n[map.relative]",
+        };
         load(&format!("{live}\n{others}"), &[]).unwrap_or_else(|error| panic!("{error}\n{live}"));
     }
 }

@@ -68,7 +68,7 @@ impl Default for RelativeMap3d {
 impl From<&RelativeMap3d> for RelativeParams {
     fn from(map: &RelativeMap3d) -> Self {
         Self {
-            view: view_of(map.vertices),
+            view: view_of(map.vertices, Self::default().view),
             consolidation_radius_m: map.consolidation_radius_m,
             shrink_m: map.shrink_m,
             wall_closing_m: map.wall_closing_m,
@@ -79,9 +79,9 @@ impl From<&RelativeMap3d> for RelativeParams {
     }
 }
 
-/// How a depth image becomes a polyhedron of so many vertices.
-fn view_of(vertices: u32) -> ViewOptions {
+/// The same view, but reduced to so many vertices.
+fn view_of(vertices: u32, view: ViewOptions) -> ViewOptions {
     let method = Method::InverseDepth(InverseDepth::default());
     let reduce = Some(ReduceOptions::new(method, Stop::Vertices(vertices as usize)));
-    ViewOptions { reduce, ..ViewOptions::default() }
+    ViewOptions { reduce, ..view }
 }
