@@ -104,8 +104,8 @@ pub enum Maps3dError {
         /// The limit.
         limit_px: f64,
     },
-    /// The pose of a camera has a number in it that is not finite.
-    #[error("the camera of a look at {vertex} has a pose that is not finite")]
+    /// The pose of a camera has a number in it that is not finite, or so large that nothing is left of a view there.
+    #[error("the camera of a look at {vertex} has a pose that is not finite, or too far away")]
     Pose {
         /// The vertex that it hangs on.
         vertex: probe::VertexId,

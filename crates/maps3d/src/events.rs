@@ -3,6 +3,7 @@
 use probe::Probe;
 use solid::{Label, Polyhedron};
 
+use crate::global_union::UnionEvent;
 use crate::image::{FilledImage, Pixel};
 use crate::relative::ConsolidationEvent;
 use crate::triangulate::{FrontierSquares, ImageMesh};
@@ -101,11 +102,16 @@ probe::variants!(DepthEvent<'_>: Prepared, Triangulated, Removed, Inserted, Reac
 
 /// A listener of all events of this crate; implemented by whatever listens to each family.
 pub trait Map3dProbe:
-    for<'a> Probe<DepthEvent<'a>> + for<'a> Probe<ConsolidationEvent<'a>>
+    for<'a> Probe<DepthEvent<'a>>
+    + for<'a> Probe<ConsolidationEvent<'a>>
+    + for<'a> Probe<UnionEvent<'a>>
 {
 }
 
 impl<P> Map3dProbe for P where
-    P: for<'a> Probe<DepthEvent<'a>> + for<'a> Probe<ConsolidationEvent<'a>> + ?Sized
+    P: for<'a> Probe<DepthEvent<'a>>
+        + for<'a> Probe<ConsolidationEvent<'a>>
+        + for<'a> Probe<UnionEvent<'a>>
+        + ?Sized
 {
 }

@@ -3,6 +3,7 @@
 #[doc = include_str!("../docs/depth.md")]
 pub mod depth {}
 
+pub mod global_union;
 pub mod image;
 pub mod plan;
 pub mod quality;
@@ -20,6 +21,7 @@ mod tolerance;
 
 pub use error::Maps3dError;
 pub use events::{DepthEvent, Map3dProbe};
+pub use global_union::{UnionCorrection, UnionEvent, UnionMap, UnionParams};
 pub use map::{
     FlightClearance, FlightRoute, FrontierPatch, FrontierPoint, Hovering, Known, Look, Map3d,
     MapTally, MapWork,

@@ -190,13 +190,24 @@ pub trait Map3d {
     /// The way to the nearest frontier of a vertex that `comes_now`, or `None` if there is none.
     ///
     /// `clearance_m` is what a [`FlightRoute::Fly`] keeps from everything. A map whose frontier belongs
-    /// to no vertex leads to the nearest of all.
+    /// to no vertex leads to the nearest of all; frontier that it finds no way to is given up, and told.
     fn route(
         &mut self,
         hovering: &Hovering,
         clearance_m: f64,
         comes_now: &dyn Fn(VertexId) -> bool,
     ) -> Option<FlightRoute>;
+
+    /// [`route`](Self::route), watched by a probe; maps with nothing to tell of it tell nothing.
+    fn route_with(
+        &mut self,
+        hovering: &Hovering,
+        clearance_m: f64,
+        comes_now: &dyn Fn(VertexId) -> bool,
+        _probe: &mut dyn Map3dProbe,
+    ) -> Option<FlightRoute> {
+        self.route(hovering, clearance_m, comes_now)
+    }
 
     /// How near the straight motion `to_in_body` comes to what is solid, and to what was not seen.
     ///

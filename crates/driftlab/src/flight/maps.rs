@@ -121,6 +121,16 @@ impl Map3d for Side {
         self.timed(|map| map.route(hovering, clearance_m, comes_now))
     }
 
+    fn route_with(
+        &mut self,
+        hovering: &Hovering,
+        clearance_m: f64,
+        comes_now: &dyn Fn(VertexId) -> bool,
+        probe: &mut dyn Map3dProbe,
+    ) -> Option<FlightRoute> {
+        self.timed(|map| map.route_with(hovering, clearance_m, comes_now, probe))
+    }
+
     fn clearance(
         &mut self,
         hovering: &Hovering,

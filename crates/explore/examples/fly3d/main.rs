@@ -12,7 +12,10 @@ use std::sync::Arc;
 use std::time::Instant;
 
 use explore::{FlightEvent, FlightExplorer, FlightParams};
-use maps3d::{ConsolidationEvent, DepthEvent, Map3d, RelativeMap, RelativeParams};
+use maps3d::{
+    ConsolidationEvent, DepthEvent, Map3d, RelativeMap, RelativeParams, UnionEvent, UnionMap,
+    UnionParams,
+};
 use metrics::{FlightWitness, VoxelCoverage, VoxelParams};
 use probe::Probe;
 use worlds::space::{
@@ -60,6 +63,18 @@ impl Probe<ConsolidationEvent<'_>> for Told {
     fn emit(&mut self, _: ConsolidationEvent<'_>) {}
 }
 
+impl Probe<UnionEvent<'_>> for Told {
+    fn on(&self) -> bool {
+        self.0
+    }
+
+    fn emit(&mut self, event: UnionEvent<'_>) {
+        if self.0 {
+            println!("    {}", event.variant());
+        }
+    }
+}
+
 fn world(name: &str, seed: u64) -> World3d {
     match name {
         "rooms" => rooms(&Rooms3dParams { seed, ..Rooms3dParams::default() }),
@@ -73,6 +88,7 @@ fn world(name: &str, seed: u64) -> World3d {
 fn map_of(name: &str, relative: RelativeParams) -> Box<dyn Map3d + Send> {
     match name {
         "relative" => Box::new(RelativeMap::new(relative).expect("parameters")),
+        "global_union" => Box::new(UnionMap::new(UnionParams::default()).expect("usual options")),
         "points" => Box::new(points_map::PointsMap::default()),
         _ => panic!("unknown map {name}"),
     }

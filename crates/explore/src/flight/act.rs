@@ -130,7 +130,7 @@ impl FlightExplorer {
         self.change_state(State::Deliberate, probe);
         let hovering = self.hovering;
         let keep_m = self.params.body_radius_m + self.params.margins_m.first().unwrap_or(&0.0);
-        let Some(route) = self.maps[0].route(&hovering, keep_m, &|_| true) else {
+        let Some(route) = self.maps[0].route_with(&hovering, keep_m, &|_| true, &mut *probe) else {
             self.finish(Ending::Complete, probe);
             return true;
         };

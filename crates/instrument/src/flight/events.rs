@@ -1,12 +1,12 @@
 //! Every event in order: a line of text each, and what it draws.
 
 use explore::FlightEvent;
-use maps3d::DepthEvent;
 use maps3d::relative::ConsolidationEvent;
+use maps3d::{DepthEvent, UnionEvent};
 use probe::Probe;
 
 use super::views::{self, ClosedFaces};
-use super::{FlightRecorder, looks, planner};
+use super::{FlightRecorder, looks, planner, union};
 use crate::{Family, Level};
 
 impl Probe<FlightEvent<'_>> for FlightRecorder {
@@ -103,6 +103,28 @@ impl Probe<ConsolidationEvent<'_>> for FlightRecorder {
         if let ConsolidationEvent::Settled { map, .. } = event {
             self.views.settle(&mut self.ink, map);
         }
+    }
+}
+
+impl Probe<UnionEvent<'_>> for FlightRecorder {
+    fn on(&self) -> bool {
+        self.ink.is_on()
+    }
+
+    fn emit(&mut self, event: UnionEvent<'_>) {
+        let family = union::family_of(&event);
+        if !self.takes(family) {
+            return;
+        }
+        if self.level == Level::Full {
+            self.next_event();
+            let line = union::line(&event);
+            self.ink.say(family.name(), event.variant(), format_args!("{line}"));
+        }
+        if let UnionEvent::Placed { view: 0, .. } = event {
+            union::place(&mut self.ink, &self.world_from_start);
+        }
+        union::draw(&mut self.ink, &event);
     }
 }
 

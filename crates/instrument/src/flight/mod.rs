@@ -8,6 +8,7 @@
 //! | `looks` | depth images, and the way to a polyhedron |
 //! | `graph` | vertices and edges by odometry |
 //! | `views` | the views of the relative map around the robot |
+//! | `union` | the united map: operands, the map, its corrections and paths |
 //! | `planner` | what is to be looked at, from where, and the way there |
 //! | `events` | every event in order, a line each |
 
@@ -21,6 +22,7 @@ mod planner;
 mod recorder;
 mod recording;
 mod truth;
+mod union;
 mod views;
 
 pub use options::FlightOptions;

@@ -19,6 +19,7 @@ pub use corridor::{Corridor, Knot, Miss};
 pub use events::PlanEvent;
 pub use frontier::FrontierNode;
 pub use graph::{DualGraph, Gate, NodeId};
+pub(crate) use obstacles::between;
 pub use obstacles::{Near, Obstacles};
 pub use options::{Algorithm, Heuristic, PlanOptions, Target};
 pub use planner::{Plan, Planner};

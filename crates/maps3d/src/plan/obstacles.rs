@@ -83,7 +83,7 @@ impl Obstacles {
 }
 
 /// The nearest points of a segment and a triangle, to rounding.
-pub(super) fn between(p: &Point3, q: &Point3, triangle: &[Point3; 3]) -> (Point3, Point3) {
+pub(crate) fn between(p: &Point3, q: &Point3, triangle: &[Point3; 3]) -> (Point3, Point3) {
     let [a, b, c] = triangle;
     if let Some(at) = crossing(p, q, triangle) {
         return (at, at);

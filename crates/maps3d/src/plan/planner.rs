@@ -9,6 +9,7 @@ use solid::{Point3, Tetrahedra};
 
 use super::corridor::{Corridor, Knot, length_m, of_way};
 use super::events::PlanEvent;
+use super::frontier::FrontierNode;
 use super::graph::{DualGraph, NodeId};
 use super::landmarks::Landmarks;
 use super::nearest::NearestPoint;
@@ -62,6 +63,8 @@ pub struct Planner {
     graph: DualGraph,
     options: PlanOptions,
     goals: NearestPoint,
+    /// By frontier point: whether it is a goal.
+    wanted: Vec<bool>,
     landmarks: Option<Landmarks>,
     scratch: Scratch<NodeId>,
 }
@@ -75,8 +78,17 @@ impl Planner {
         let space = Space::new(volumes)?;
         let graph = DualGraph::new(&space, options)?;
         let goals = NearestPoint::new(graph.frontier().iter().map(|node| node.at).collect());
+        let wanted = vec![true; graph.frontier().len()];
         let (options, landmarks, scratch) = (*options, None, Scratch::new());
-        Ok(Self { space, graph, options, goals, landmarks, scratch })
+        Ok(Self { space, graph, options, goals, wanted, landmarks, scratch })
+    }
+
+    /// From now on only the frontier points that `keep` wants are goals; ways may pass the others.
+    pub fn set_goals(&mut self, mut keep: impl FnMut(&Space, &FrontierNode) -> bool) {
+        let nodes = self.graph.frontier();
+        self.wanted = nodes.iter().map(|node| keep(&self.space, node)).collect();
+        let goals = nodes.iter().zip(&self.wanted).filter(|(_, wanted)| **wanted);
+        self.goals = NearestPoint::new(goals.map(|(node, _)| node.at).collect());
     }
 
     /// The space.
@@ -116,6 +128,18 @@ impl Planner {
     /// Tells a probe what was joined.
     pub fn tell<P: for<'e> Probe<PlanEvent<'e>>>(&self, probe: &mut P) {
         probe.emit(PlanEvent::Joined { space: &self.space, graph: &self.graph });
+    }
+
+    /// Whether a path may be asked for.
+    ///
+    /// # Errors
+    /// As [`plan`](Self::plan).
+    pub fn check(&self, from: &Point3, target: &Target) -> Result<(), Maps3dError> {
+        self.placed("start", from)?;
+        if let Target::Point(to) = target {
+            self.placed("goal", to)?;
+        }
+        Ok(())
     }
 
     /// A path, or `None` where there is none.
@@ -161,6 +185,7 @@ impl Planner {
                 to: goal,
                 blocked: &blocked,
                 goals: &self.goals,
+                wanted: &self.wanted,
                 landmarks: self.landmarks.as_ref(),
                 done: Cell::new(false),
             };

@@ -33,8 +33,10 @@ pub(super) struct Query<'a> {
     pub to: Option<(Point3, u32)>,
     /// Gates that turned out too narrow, ascending.
     pub blocked: &'a [u32],
-    /// All frontier points, for their nearest.
+    /// The frontier points that are goals, for their nearest.
     pub goals: &'a NearestPoint,
+    /// By frontier point: whether it is a goal.
+    pub wanted: &'a [bool],
     pub landmarks: Option<&'a Landmarks>,
     /// Set once the goal was expanded: nothing else is of interest then.
     pub done: Cell<bool>,
@@ -52,7 +54,10 @@ impl Query<'_> {
     pub fn is_goal(&self, node: u32) -> bool {
         match self.to {
             Some(_) => node == self.goal_node(),
-            None => node as usize >= self.graph.tetrahedra() && node < self.start_node(),
+            None => {
+                let point = (node as usize).checked_sub(self.graph.tetrahedra());
+                point.and_then(|point| self.wanted.get(point)).is_some_and(|&wanted| wanted)
+            }
         }
     }
 

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 /// Seconds of this thread on a processor, which a busy machine does not stretch; of the clock where
 /// the system does not tell.
-fn now() -> f64 {
+pub fn now() -> f64 {
     static START: OnceLock<Instant> = OnceLock::new();
     let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
     let nanos = told.and_then(|line| line.split_whitespace().next()?.parse::<f64>().ok());

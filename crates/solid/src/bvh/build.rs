@@ -1,7 +1,7 @@
 //! Step 1: the tree.
 
 use super::Aabb;
-use crate::Polyhedron;
+use crate::{Point3, Polyhedron};
 
 /// Boxes per leaf.
 const LEAF: usize = 4;
@@ -63,6 +63,16 @@ impl Bvh {
         }
         let boxes = items.iter().map(|&i| boxes[i as usize]).collect();
         Self { nodes, items, boxes }
+    }
+
+    /// The lowest and the highest coordinates of all boxes; `None` without boxes.
+    pub fn bounds(&self) -> Option<(Point3, Point3)> {
+        self.nodes.first().map(|root| (root.aabb.low, root.aabb.high))
+    }
+
+    /// Memory held on the heap, bytes.
+    pub fn heap_bytes(&self) -> usize {
+        size_of_val(&self.nodes[..]) + size_of_val(&self.items[..]) + size_of_val(&self.boxes[..])
     }
 
     /// A tree over the faces of a mesh.

@@ -1,0 +1,42 @@
+//! Step 4: frontier that was given up, by place.
+
+use probe::VertexId;
+use solid::Point3;
+
+use super::poses::Poses;
+
+/// A ball in which frontier does not count, tied to a vertex: it moves with it.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Place {
+    pub vertex: VertexId,
+    pub in_vertex: Point3,
+    pub radius_m: f64,
+}
+
+/// All of them, where they are in the map now.
+#[derive(Clone, Debug, Default)]
+pub(super) struct GivenUp {
+    places: Vec<Place>,
+}
+
+impl GivenUp {
+    pub fn add(&mut self, place: Place) {
+        self.places.push(place);
+    }
+
+    /// The balls in the frame `map`.
+    pub fn in_map(&self, poses: &Poses) -> Vec<(Point3, f64)> {
+        let at = |place: &Place| poses.of(place.vertex).transform(&place.in_vertex);
+        self.places.iter().map(|place| (at(place), place.radius_m)).collect()
+    }
+
+    /// Memory held on the heap, bytes.
+    pub fn heap_bytes(&self) -> usize {
+        size_of_val(&self.places[..])
+    }
+}
+
+/// Whether a point lies in one of the balls.
+pub(super) fn is_in(balls: &[(Point3, f64)], point: &Point3) -> bool {
+    balls.iter().any(|(centre, radius_m)| (point - centre).norm() <= *radius_m)
+}

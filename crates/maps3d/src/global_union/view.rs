@@ -1,0 +1,121 @@
+//! Step 1: a look as an operand of the union.
+
+use pose::Se3;
+use probe::VertexId;
+use solid::predicates::{in_envelope, orient3};
+use solid::{Label, Point3, Polyhedron, SolidError, Tetrahedra, jittered, tetrahedra};
+
+/// One look: its polyhedron, and where it is in the map.
+#[derive(Clone, Debug)]
+pub(super) struct View {
+    pub vertex: VertexId,
+    pub vertex_from_camera: Se3,
+    pub in_camera: Polyhedron,
+    /// The pose with which it was united.
+    pub map_from_camera: Se3,
+    /// Whether it stands beside the union, which refused it.
+    pub aside: bool,
+}
+
+impl View {
+    /// The view in the frame `map`, each vertex moved by a hash of the look and of itself.
+    pub fn placed(&self, number: u32, jitter_m: f64) -> Polyhedron {
+        let placed = self.in_camera.transformed(&self.map_from_camera);
+        if jitter_m > 0.0 { jittered(&placed, number.into(), jitter_m) } else { placed }
+    }
+
+    /// Whether the view is still what it was once it is placed: very far away coordinates round it to nothing.
+    pub fn stays_itself(&self) -> bool {
+        let placed = self.in_camera.transformed(&self.map_from_camera);
+        let (was_m3, is_m3) = (self.in_camera.volume_m3(), placed.volume_m3());
+        placed.vertices().iter().all(in_envelope) && (is_m3 - was_m3).abs() <= 1e-3 * was_m3
+    }
+
+    /// The fan of the view in the frame `map`. Tetrahedra that rounding turned over are left out.
+    ///
+    /// # Errors
+    /// [`SolidError::NotStar`] where rounding made the view none, [`SolidError::OutsideEnvelope`] where its
+    /// pose is out of this world.
+    pub fn fan(&self) -> Result<Tetrahedra, SolidError> {
+        let mut fan = tetrahedra::fan(&self.in_camera, &Point3::origin())?;
+        for (vertex, point) in fan.vertices.iter_mut().enumerate() {
+            *point = self.map_from_camera.transform(point);
+            if !in_envelope(point) {
+                let [x, y, z] = point.coords.into();
+                return Err(SolidError::OutsideEnvelope { vertex, x, y, z });
+            }
+        }
+        Ok(without_flat(fan))
+    }
+
+    /// The farthest that a point of the view moves when it goes to another pose, metres; bounded by way of the
+    /// corners of its box.
+    pub fn moves_by(&self, map_from_camera: &Se3) -> f64 {
+        let Some((low, high)) = self.in_camera.bounds() else { return 0.0 };
+        let moved = |corner: usize| {
+            let pick = |axis: usize| if corner >> axis & 1 == 0 { low[axis] } else { high[axis] };
+            let at = Point3::new(pick(0), pick(1), pick(2));
+            (map_from_camera.transform(&at) - self.map_from_camera.transform(&at)).norm()
+        };
+        // What moves is affine in the point: its length is greatest at a corner.
+        (0..8).map(moved).fold(0.0, f64::max)
+    }
+
+    /// Memory held on the heap, bytes.
+    pub fn heap_bytes(&self) -> usize {
+        mesh_bytes(&self.in_camera)
+    }
+}
+
+/// Memory of a mesh on the heap, bytes.
+pub(super) fn mesh_bytes(mesh: &Polyhedron) -> usize {
+    size_of_val(mesh.vertices()) + size_of_val(mesh.faces()) + size_of_val(mesh.labels())
+}
+
+/// The octahedron round a point that the robot fills, all frontier.
+pub(super) fn body_at(centre: &Point3, radius_m: f64) -> Option<Polyhedron> {
+    if radius_m <= 0.0 {
+        return None;
+    }
+    let vertices = (0..6)
+        .map(|i| {
+            let mut at = *centre;
+            at[i / 2] += if i % 2 == 0 { radius_m } else { -radius_m };
+            at
+        })
+        .collect();
+    let faces: Vec<[u32; 3]> = (0..8_u32)
+        .map(|octant| {
+            let [x, y, z] = [octant & 1, 2 + (octant >> 1 & 1), 4 + (octant >> 2 & 1)];
+            // Each axis that is reflected turns the face round.
+            if octant.count_ones() % 2 == 0 { [x, y, z] } else { [x, z, y] }
+        })
+        .collect();
+    let labels = vec![Label::Frontier; faces.len()];
+    Polyhedron::try_new(vertices, faces, labels).ok()
+}
+
+fn without_flat(mut fan: Tetrahedra) -> Tetrahedra {
+    let sound = |tet: &[u32; 4]| {
+        let [a, b, c, d] = tet.map(|v| &fan.vertices[v as usize]);
+        orient3(a, b, c, d) > 0.0
+    };
+    let mut new_of = vec![None; fan.tetrahedra.len()];
+    let mut kept = 0;
+    for (new, tet) in new_of.iter_mut().zip(&fan.tetrahedra) {
+        if sound(tet) {
+            *new = Some(kept);
+            kept += 1;
+        }
+    }
+    let renamed = |old: Option<u32>| old.and_then(|t| new_of[t as usize]);
+    let keep = |t: usize| new_of[t].is_some();
+    let of = |t: usize| fan.neighbours[t].map(renamed);
+    let neighbours: Vec<_> = (0..fan.tetrahedra.len()).filter(|&t| keep(t)).map(of).collect();
+    let tetrahedra: Vec<_> =
+        (0..fan.tetrahedra.len()).filter(|&t| keep(t)).map(|t| fan.tetrahedra[t]).collect();
+    for face in &mut fan.boundary {
+        face.tetrahedra = face.tetrahedra.map(renamed);
+    }
+    Tetrahedra { neighbours, tetrahedra, ..fan }
+}

@@ -1,0 +1,159 @@
+//! Step 7: ways to the nearest frontier through the tetrahedra.
+
+use solid::Point3;
+
+use super::ask::clearance;
+use super::places::is_in;
+use super::surface::Surface;
+use super::volumes::Volumes;
+use crate::{FlightClearance, Maps3dError, Plan, Target};
+
+/// What was not seen does not count so near to where a way starts, metres: the robot is there.
+const LEAVING_M: f64 = 1.0;
+
+/// A way is cut at multiples of this, metres.
+const STEP_M: f64 = 0.1;
+
+/// A start so near to the map counts as in it, metres.
+const NEAR_M: f64 = 0.1;
+
+/// A shorter way than this leads to nothing new, metres.
+const LEAST_M: f64 = 0.3;
+
+/// Goals that are tried before less is asked.
+const GOALS: usize = 6;
+
+/// Goals nearer than this to one that no way leads to are left out with it, metres.
+const SAME_M: f64 = 0.75;
+
+/// Where the robot is too near to an obstacle already, a way may keep less, but this share of the clearance.
+const LEAST_SHARE: f64 = 0.4;
+
+/// What a way must keep: the share of the clearance from obstacles, and from what was not seen.
+const ASKED: [[f64; 2]; 3] = [[1.0, 0.7], [1.0, 0.0], [0.6, 0.0]];
+
+/// What counts as a goal, and how a way ends.
+pub(super) struct Wanted<'a> {
+    pub surfaces: &'a [&'a Surface],
+    /// Frontier faces of the united map that count, ascending.
+    pub faces: &'a [u32],
+    /// Balls in which frontier was given up.
+    pub given_up: &'a [(Point3, f64)],
+    pub clearance_m: f64,
+    pub stop_short_m: f64,
+}
+
+/// The plan to the nearest frontier that counts, and the part of its path that keeps clear; `None` where no
+/// way is found to any. Everything is in the frame `map`.
+pub(super) fn to_frontier(
+    volumes: &mut Volumes,
+    from: &Point3,
+    wanted: &Wanted<'_>,
+) -> Option<(Plan, Vec<Point3>)> {
+    let united = volumes.united;
+    for [solid, unseen] in ASKED {
+        let mut radius_m = wanted.clearance_m * solid;
+        let unseen_m = wanted.clearance_m * unseen;
+        let mut blocked: Vec<(Point3, f64)> = Vec::new();
+        while blocked.len() < GOALS {
+            let Ok(planner) = volumes.planner(radius_m) else { return None };
+            planner.set_goals(|space, node| {
+                let face = space.frontier()[node.face as usize];
+                let counts =
+                    !united || face.volume > 0 || wanted.faces.binary_search(&face.face).is_ok();
+                counts && !is_in(wanted.given_up, &node.at) && !is_in(&blocked, &node.at)
+            });
+            let start = inside(planner.space(), from)?;
+            let is_outside = (start - from).norm() > NEAR_M;
+            let plan = match planner.plan(&start, &Target::Frontier) {
+                Ok(Some(plan)) => plan,
+                // Nearer to something than it should be: the robot leaves as it came.
+                Err(Maps3dError::TooNear { distance_m, .. })
+                    if (LEAST_SHARE * wanted.clearance_m..radius_m)
+                        .contains(&(0.9 * distance_m)) =>
+                {
+                    radius_m = 0.9 * distance_m;
+                    continue;
+                }
+                _ => break,
+            };
+            let points = plan.points();
+            let Some(goal) = points.last().copied() else { break };
+            let keeps = |c: &FlightClearance| c.keeps(0.99 * radius_m, unseen_m);
+            let given = cut(wanted.surfaces, &points, wanted.stop_short_m, keeps);
+            if plan.clear && length_m(&given) >= LEAST_M.min(0.5 * plan.path_m) {
+                let skipped = usize::from(!is_outside);
+                return Some((plan, given[skipped..].to_vec()));
+            }
+            blocked.push((goal, SAME_M));
+        }
+    }
+    None
+}
+
+/// The point, or one next to it that lies in the space: poses round, and a camera hovers at the tip of its own
+/// view. Where nothing of the map is near, because the look from there was refused, the middle of the
+/// nearest tetrahedron.
+fn inside(space: &crate::plan::Space, from: &Point3) -> Option<Point3> {
+    if space.locate(from).is_some() {
+        return Some(*from);
+    }
+    for away_m in [1e-6, 1e-3, 0.01, 0.03, NEAR_M] {
+        for direction in (0..27).filter(|&i| i != 13) {
+            let step = [direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 - 1].map(f64::from);
+            let way = solid::Vector3::from(step).normalize();
+            if space.locate(&(from + way * away_m)).is_some() {
+                return Some(from + way * away_m);
+            }
+        }
+    }
+    let middles = (0..space.len() as u32).map(|t| space.middle(t));
+    middles.min_by(|a, b| (a - from).norm_squared().total_cmp(&(b - from).norm_squared()))
+}
+
+fn length_m(points: &[Point3]) -> f64 {
+    points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
+}
+
+/// The start of a path, as far as it keeps clear and no nearer to its end than `short_m`, or half of its
+/// length where that is less.
+fn cut(
+    surfaces: &[&Surface],
+    points: &[Point3],
+    short_m: f64,
+    keeps: impl Fn(&FlightClearance) -> bool,
+) -> Vec<Point3> {
+    let whole_m = length_m(points);
+    let mut left_m = whole_m - short_m.min(0.5 * whole_m);
+    let mut gone_m = 0.0;
+    let mut kept = vec![points[0]];
+    for pair in points.windows(2) {
+        let (leg, leg_m) = (pair[1] - pair[0], (pair[1] - pair[0]).norm());
+        if leg_m == 0.0 {
+            continue;
+        }
+        let end_m = leg_m.min(left_m);
+        let leaving_m = (LEAVING_M - gone_m).max(0.0);
+        let at = |along_m: f64| pair[0] + leg * (along_m / leg_m);
+        let is_clear = |a_m: f64, b_m: f64| {
+            let leaving_m = (leaving_m - a_m).max(0.0);
+            keeps(&clearance(surfaces, &at(a_m), &at(b_m), leaving_m))
+        };
+        let mut clear_m = 0.0;
+        if is_clear(0.0, end_m) {
+            clear_m = end_m;
+        } else {
+            while clear_m < end_m && is_clear(clear_m, end_m.min(clear_m + STEP_M)) {
+                clear_m = end_m.min(clear_m + STEP_M);
+            }
+        }
+        if clear_m > 0.0 {
+            kept.push(at(clear_m));
+        }
+        (gone_m, left_m) = (gone_m + clear_m, left_m - clear_m);
+        if clear_m < leg_m || left_m <= 0.0 {
+            break;
+        }
+    }
+    kept
+}
