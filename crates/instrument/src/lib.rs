@@ -9,6 +9,7 @@ mod layout;
 mod optimisation;
 mod options;
 mod palette;
+mod plan;
 mod recorder;
 mod recording;
 mod solid;
@@ -23,6 +24,7 @@ pub use inspect::{
 };
 pub use optimisation::{DrawnPose, OPTIMIZER_EVENTS, OptimisationOptions, OptimisationRecording};
 pub use options::{Centre, Every, Family, Level, MapOptions, RecordingOptions};
+pub use plan::{PLAN_EVENTS, PlanRecording, PlanRecordingOptions};
 pub use recorder::{Quarrel, Recorder, StepEnd};
 pub use recording::Recording;
 pub use solid::{BooleanRecording, ReduceRecording, SolidOptions, TetrahedraRecording};

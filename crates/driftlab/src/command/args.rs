@@ -114,7 +114,7 @@ pub(super) enum Command {
     Report(ReportArgs),
     /// Pose-graph files: tell, optimise, compare, convert, make up
     Graph(GraphArgs),
-    /// Meshes: make them of depth images, tell, reduce, combine, fill with tetrahedra
+    /// Meshes: make them of depth images, tell, reduce, combine, fill with tetrahedra, plan paths inside
     Mesh(MeshArgs),
     /// Logs of robots: tell what they hold, write them as MCAP
     Log(LogArgs),

@@ -11,4 +11,5 @@ mod tetrahedra;
 pub use boolean::BooleanRecording;
 pub use reduce::ReduceRecording;
 pub use stage::SolidOptions;
+pub(crate) use stage::SolidStage;
 pub use tetrahedra::TetrahedraRecording;

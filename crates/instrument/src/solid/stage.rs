@@ -3,7 +3,7 @@
 use std::fmt::Arguments;
 use std::path::PathBuf;
 
-use rerun::{Color, LineStrips3D, Mesh3D, Points3D};
+use rerun::{Color, LineStrips3D, Mesh3D, Points3D, RecordingStream};
 use solid::{Label, Point3, Polyhedron};
 
 use crate::columns::{Rgba, fixed, rgb, rgba};
@@ -30,7 +30,7 @@ pub(super) const fn colour(label: Label) -> Rgba {
 }
 
 /// A recording, the count of its events, and its first refusal.
-pub(super) struct SolidStage {
+pub(crate) struct SolidStage {
     stage: Stage,
     event: i64,
     refusal: Option<InstrumentError>,
@@ -42,15 +42,37 @@ impl SolidStage {
         options: &SolidOptions,
         panels: &[(&str, &[&str])],
     ) -> Result<Self, InstrumentError> {
+        Self::create_with(options, |stream| layout::send_solid(stream, panels))
+    }
+
+    /// As [`create`](Self::create), with a layout of its own.
+    pub(crate) fn create_with(
+        options: &SolidOptions,
+        layout: impl FnOnce(&RecordingStream) -> Result<(), String>,
+    ) -> Result<Self, InstrumentError> {
         let stage = Stage::create(&options.path, &options.name)?;
-        layout::send_solid(&stage.stream, panels).map_err(|reason| stage.refused(reason))?;
+        layout(&stage.stream).map_err(|reason| stage.refused(reason))?;
         stage.about(format!("# {}\n\n{}\n", options.name, options.about))?;
         fixed(&stage.stream, &"/".into(), &rerun::ViewCoordinates::RIGHT_HAND_Z_UP())?;
         Ok(Self { stage, event: -1, refusal: None })
     }
 
+    /// Says how plotted numbers look: name, title, colour.
+    pub(crate) fn looks(&mut self, plots: &[(&str, &str, Rgba)]) {
+        if let Err(refused) = self.stage.looks(plots.iter().copied()) {
+            self.refusal.get_or_insert(refused);
+        }
+    }
+
+    /// Plots a number at the event at hand.
+    pub(crate) fn plot(&mut self, name: &str, value: f64) {
+        if let Err(refused) = self.stage.plot(name, value) {
+            self.refusal.get_or_insert(refused);
+        }
+    }
+
     /// Goes to the next event and writes one line about it.
-    pub(super) fn event(&mut self, variant: &'static str, line: Arguments<'_>) {
+    pub(crate) fn event(&mut self, variant: &'static str, line: Arguments<'_>) {
         self.event += 1;
         self.stage.stream.set_time_sequence("event", self.event);
         if let Err(refused) = self.stage.say("events/solid", variant, line) {
@@ -88,7 +110,7 @@ impl SolidStage {
     }
 
     /// Shows the edges of a mesh at all times, thin, in the colours of the labels beside them.
-    pub(super) fn outlined(&mut self, entity: &str, mesh: &Polyhedron) {
+    pub(crate) fn outlined(&mut self, entity: &str, mesh: &Polyhedron) {
         for (name, label) in [("obstacle", Label::Obstacle), ("frontier", Label::Frontier)] {
             let mut edges: Vec<[u32; 2]> = (mesh.faces().iter().zip(mesh.labels()))
                 .filter(|(_, of)| **of == label)
@@ -109,7 +131,7 @@ impl SolidStage {
     }
 
     /// Shows lines.
-    pub(super) fn lines(&mut self, entity: &str, ends: &[[Point3; 2]], colour: Rgba, points: f32) {
+    pub(crate) fn lines(&mut self, entity: &str, ends: &[[Point3; 2]], colour: Rgba, points: f32) {
         let strips = ends.iter().map(|[from, to]| [short(from), short(to)]);
         let shown = LineStrips3D::new(strips)
             .with_colors([Color::from_u32(colour)])
@@ -119,7 +141,7 @@ impl SolidStage {
     }
 
     /// Shows points.
-    pub(super) fn points(&mut self, entity: &str, at: &[Point3], colour: Rgba, points: f32) {
+    pub(crate) fn points(&mut self, entity: &str, at: &[Point3], colour: Rgba, points: f32) {
         let shown = Points3D::new(at.iter().map(short))
             .with_colors([Color::from_u32(colour)])
             .with_radii([rerun::Radius::new_ui_points(points)]);
@@ -128,7 +150,7 @@ impl SolidStage {
     }
 
     /// Ends the recording with its result; `metrics` is kept as JSON.
-    pub(super) fn finish(
+    pub(crate) fn finish(
         self,
         result: String,
         metrics: &serde_json::Value,

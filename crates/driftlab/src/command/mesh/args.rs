@@ -9,6 +9,7 @@ use super::super::failure::Failure;
 use super::super::files::{apart, free};
 use super::depth_args::{DepthArgs, DepthFileArgs, numbers};
 use super::output::Target;
+use super::plan::{AlgorithmName, HeuristicName};
 
 #[derive(Debug, Args)]
 pub(in crate::command) struct MeshArgs {
@@ -99,6 +100,22 @@ pub(super) enum MeshCommand {
             driftlab mesh room --size 320,240 --seed 7 -o small.pgm --json"
     )]
     Room(RoomArgs),
+    /// Find a path through the inside of a mesh, to a point or to the nearest frontier
+    #[command(
+        allow_negative_numbers = true,
+        long_about = "Find a path through the inside of a mesh, to a point or to the nearest frontier.\n\n\
+            The mesh is filled with tetrahedra. Their dual graph is searched; frontier faces have nodes of \
+            their own, several where they are large. Then the path is shortened inside of its corridor by \
+            second-order cone programmes, clear of obstacle faces by the radius, and verified by an exact \
+            walk. Where a corridor is too narrow, the next is tried. --json tells found, clear, way_m \
+            (through the nodes), path_m, shortened_share, path, expansions, programmes, tetrahedra, and \
+            secs_read, secs_tetrahedralize, secs_graph, secs_prepare, secs_plan.",
+        after_help = "Examples:\n  \
+            driftlab mesh plan map.ply --from 0,0,1.2\n  \
+            driftlab mesh plan map.ply --from 0,0,1.2 --to 4,2,1 --radius 0.2 --record plan.rrd\n  \
+            driftlab mesh plan map.ply --from 0,0,1.2 --to 4,2,1 --algorithm dijkstra --json"
+    )]
+    Plan(PlanArgs),
     /// Take faces out of a mesh, within an error
     #[command(
         long_about = "Take faces out of a mesh, within an error.\n\n\
@@ -277,6 +294,50 @@ pub(super) struct PolyhedronArgs {
     pub(super) depth: DepthArgs,
     #[command(flatten)]
     pub(super) output: OutputArgs,
+}
+
+#[derive(Debug, Args)]
+pub(super) struct PlanArgs {
+    /// The mesh: PLY, OBJ, STL, OFF, .node, .poly or .smesh
+    pub(super) file: PathBuf,
+    #[command(flatten)]
+    pub(super) input: MeshInput,
+    /// Where the path starts, metres
+    #[arg(
+        long,
+        value_name = "X,Y,Z",
+        value_parser = numbers::<f64, 3>,
+        allow_hyphen_values = true
+    )]
+    pub(super) from: [f64; 3],
+    /// Where it ends, metres [default: at the nearest frontier]
+    #[arg(
+        long,
+        value_name = "X,Y,Z",
+        value_parser = numbers::<f64, 3>,
+        allow_hyphen_values = true
+    )]
+    pub(super) to: Option<[f64; 3]>,
+    /// The robot is a ball of this radius, metres
+    #[arg(long, value_name = "M", default_value_t = 0.0)]
+    pub(super) radius: f64,
+    /// How the graph is searched
+    #[arg(long, value_name = "NAME", default_value = "astar")]
+    pub(super) algorithm: AlgorithmName,
+    /// What A* takes for the cost that is left at least
+    #[arg(long, value_name = "NAME", default_value = "landmarks")]
+    pub(super) heuristic: HeuristicName,
+    /// Points of a frontier face lie no farther apart than this, metres
+    #[arg(long, value_name = "M", default_value_t = 1.0)]
+    pub(super) spacing: f64,
+    /// Smaller frontier faces are no goals, square metres
+    #[arg(long, value_name = "M2", default_value_t = 0.0)]
+    pub(super) least_area: f64,
+    /// Leave the path as it leads through the nodes
+    #[arg(long)]
+    pub(super) no_shorten: bool,
+    #[command(flatten)]
+    pub(super) recording: RecordArgs,
 }
 
 #[derive(Debug, Args)]

@@ -1,4 +1,4 @@
-//! `driftlab mesh`: meshes, told about, combined, reduced and filled with tetrahedra.
+//! `driftlab mesh`: meshes, told about, combined, reduced, filled with tetrahedra and flown through.
 //!
 //! One file for each subcommand; `input.rs` and `output.rs` read and write for all of them, `told.rs`
 //! says what is said of every mesh.
@@ -11,6 +11,7 @@ mod info;
 mod input;
 mod ladder;
 mod output;
+mod plan;
 mod polyhedron;
 mod reduce;
 mod room;
@@ -29,6 +30,7 @@ pub(super) fn mesh(args: &MeshArgs, out: &Out) -> Result<(), Failure> {
         MeshCommand::Reduce(args) => reduce::reduce(args, out),
         MeshCommand::Info(args) => info::info(args, out),
         MeshCommand::Ladder(args) => ladder::ladder(args, out),
+        MeshCommand::Plan(args) => plan::plan(args, out),
         MeshCommand::Polyhedron(args) => polyhedron::polyhedron(args, out),
         MeshCommand::Room(args) => room::room(args, out),
         MeshCommand::Tetrahedralize(args) => tetrahedralize::tetrahedralize(args, out),

@@ -37,7 +37,7 @@ pub(super) fn tetrahedralize(args: &TetrahedralizeArgs, out: &Out) -> Result<(),
         None => tetrahedralize_in(&read.mesh, &inside, &mut probe::Off),
     };
     let secs = start.elapsed().as_secs_f64();
-    let found = found.map_err(|error| refused(&error, args))?;
+    let found = found.map_err(|error| refused(&error, &args.file))?;
     if found.tetrahedra.is_empty() {
         return Err(Failure::Input(anyhow!(
             "{}: found no space that its faces enclose, expected a closed mesh",
@@ -88,8 +88,8 @@ fn record(
 }
 
 /// What is wrong with the input is bad input; the rest is work that failed.
-fn refused(error: &SolidError, args: &TetrahedralizeArgs) -> Failure {
-    let path = args.file.display();
+pub(super) fn refused(error: &SolidError, path: &Path) -> Failure {
+    let path = path.display();
     match error {
         SolidError::NoVolume { .. } => Failure::Input(anyhow!(
             "{path}: found {error}; expected a closed mesh whose faces meet at common edges and corners only"
