@@ -139,6 +139,43 @@ fn a_log_is_replayed_and_judged_without_truth() {
 }
 
 #[test]
+fn a_recording_shows_the_scans_three_ways_and_every_match() {
+    let desk = Desk::new(CONFIG);
+    desk.put("drive.log", &drive().0);
+    let replay = |level: &str, out: &str| {
+        let level = format!("record.level=\"{level}\"");
+        json(&desk.driftlab(&[
+            "replay",
+            "drive.log",
+            "a.toml",
+            "--set",
+            &level,
+            "--out",
+            out,
+            "--json",
+        ]))
+    };
+    let (seen, unseen) = (replay("full", "seen"), replay("off", "unseen"));
+    assert_eq!(seen["metrics"], unseen["metrics"], "nobody's watching changes anything");
+    assert!(!desk.path("unseen/run.rrd").exists());
+    let told = json(&desk.driftlab(&["inspect", "seen", "--json"])).to_string();
+    for path in [
+        "pictures/by_odometry/walls",
+        "pictures/as_optimised/walls",
+        "pictures/around_the_robot/walls",
+        "match/before/current",
+        "match/after/covariance",
+        "relative/belief/edges/obstacle",
+        "grid/belief/cells",
+    ] {
+        assert!(told.contains(path), "{path}: {told}");
+    }
+    for event in ["KeyframeAdded", "Tracked", "CandidatesRanked", "PlaceMatched", "Closed"] {
+        assert!(told.contains(event), "{event}: {told}");
+    }
+}
+
+#[test]
 fn what_cannot_be_replayed_is_told_and_leaves_nothing() {
     let desk = Desk::new(CONFIG);
     let line = "FLASER 3 1 1 1 0 0 0 0 0 0 1 h 1\n";

@@ -12,6 +12,7 @@ mod palette;
 mod plan;
 mod recorder;
 mod recording;
+mod replay;
 mod solid;
 mod stage;
 
@@ -27,4 +28,5 @@ pub use options::{Centre, Every, Family, Level, MapOptions, RecordingOptions};
 pub use plan::{PLAN_EVENTS, PlanRecording, PlanRecordingOptions};
 pub use recorder::{Quarrel, Recorder, StepEnd};
 pub use recording::Recording;
+pub use replay::{KeyframeSeen, PLACE_EVENTS, ReplayOptions, ReplayRecording, SettledSeen};
 pub use solid::{BooleanRecording, ReduceRecording, SolidOptions, TetrahedraRecording};

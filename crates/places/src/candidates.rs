@@ -15,15 +15,15 @@ pub struct Candidate {
 /// Keyframes closer than this in their order show the same.
 const BESIDE: usize = 4;
 
-/// Those of `reached` that may lie within the radius, the most promising first; neighbours of one that
-/// was taken are left out.
+/// Those of `reached` that may lie within the radius, the most promising first, and how many there were
+/// before neighbours of one that was taken were left out.
 pub fn candidates(
     params: &CandidateParams,
     reached: &[Seen],
     current: usize,
     driven_since: impl Fn(usize) -> f64,
     descriptors: &[Descriptor],
-) -> Vec<Candidate> {
+) -> (Vec<Candidate>, usize) {
     let mut all: Vec<Candidate> = reached
         .iter()
         .filter(|seen| seen.keyframe < current && driven_since(seen.keyframe) >= params.loop_m)
@@ -40,6 +40,7 @@ pub fn candidates(
         })
         .collect();
     all.sort_by(|a, b| a.cost.total_cmp(&b.cost).then(a.seen.keyframe.cmp(&b.seen.keyframe)));
+    let count = all.len();
     let mut taken: Vec<Candidate> = Vec::new();
     for candidate in all {
         let beside =
@@ -48,5 +49,5 @@ pub fn candidates(
             taken.push(candidate);
         }
     }
-    taken
+    (taken, count)
 }

@@ -38,9 +38,18 @@ pub struct Keyframe {
 }
 
 impl Keyframe {
-    /// The keyframe of a scan; returns from beyond `range_m` are left out.
-    pub fn new(scan: Scan, travelled_m: f64, range_m: f64) -> Self {
-        let surface = surface_of(&scan, range_m);
+    /// The keyframe of a scan; returns from beyond `range_m` are left out, and those within `spacing_m` of
+    /// the one kept before.
+    pub fn new(scan: Scan, travelled_m: f64, range_m: f64, spacing_m: f64) -> Self {
+        let mut surface = surface_of(&scan, range_m);
+        let mut last: Option<Point2> = None;
+        surface.retain(|kept| {
+            let far = last.is_none_or(|last| (kept.point - last).norm() >= spacing_m);
+            if far {
+                last = Some(kept.point);
+            }
+            far
+        });
         Self { scan, surface, travelled_m }
     }
 

@@ -62,6 +62,9 @@ impl Default for OdometryNoise {
 pub struct MatchParams {
     /// Returns from farther away are left out, metres.
     pub range_m: f64,
+    /// Returns nearer than this to the one kept before are left out, metres: near walls are seen by far
+    /// more rays than it takes to match them.
+    pub spacing_m: f64,
     /// Size of the cells of the table that scores are looked up in, metres.
     pub cell_m: f64,
     /// Angle between the headings that are tried, radians.
@@ -86,6 +89,7 @@ impl Default for MatchParams {
     fn default() -> Self {
         Self {
             range_m: 20.0,
+            spacing_m: 0.04,
             cell_m: 0.1,
             angle_step_rad: 1.0_f64.to_radians(),
             scored_points: 150,
@@ -116,6 +120,9 @@ pub struct CandidateParams {
     pub search_rad: f64,
     /// Candidates tried for each keyframe, at most.
     pub tried: usize,
+    /// A candidate whose window reaches farther to either side than this is tried only if it is the
+    /// most promising one, metres.
+    pub wide_m: f64,
 }
 
 impl Default for CandidateParams {
@@ -128,6 +135,7 @@ impl Default for CandidateParams {
             search_m: 4.0,
             search_rad: 40.0_f64.to_radians(),
             tried: 2,
+            wide_m: 1.5,
         }
     }
 }

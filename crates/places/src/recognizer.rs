@@ -12,7 +12,7 @@ use crate::links::{Links, Measured, Seen};
 use crate::matching::{Prior, Window};
 use crate::place::{Place, thinned};
 use crate::verify::{Judged, Pair, Verdict, window_of};
-use crate::{Keyframe, Matched, PlaceEvent, PlaceParams, SurfacePoint};
+use crate::{Keyframe, MatchParams, Matched, PlaceEvent, PlaceParams, SurfacePoint};
 
 /// What the wheels say of the way from the last keyframe.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -122,7 +122,8 @@ impl Recognizer {
         let new = self.keyframes.len();
         let before_m = self.keyframes.last().map_or(0.0, |last| last.travelled_m);
         let travelled_m = before_m + driven.distance_m.abs();
-        let keyframe = Keyframe::new(scan, travelled_m, self.params.matching.range_m);
+        let MatchParams { range_m, spacing_m, .. } = self.params.matching;
+        let keyframe = Keyframe::new(scan, travelled_m, range_m, spacing_m);
         self.links.push();
         self.keyframes.push(keyframe);
         let surface = &self.keyframes[new].surface;
@@ -204,17 +205,24 @@ impl Recognizer {
         let mut reached = std::mem::take(&mut self.reached);
         self.links.around(new, limit_m, &mut reached);
         let travelled_m = self.keyframes[new].travelled_m;
-        let ranked = candidates(
+        let (ranked, gated) = candidates(
             &self.params.candidates,
             &reached,
             new,
             |i| travelled_m - self.keyframes[i].travelled_m,
             &self.descriptors,
         );
+        added.gated = gated;
         probe.emit(PlaceEvent::CandidatesRanked { current: new, candidates: &ranked });
         if !ranked.is_empty() {
             let current = thinned(&place.points, 0.08, 600);
-            for candidate in &ranked {
+            for (rank, candidate) in ranked.iter().enumerate() {
+                // The wider the window the dearer the search: of wide ones only the best is worth it.
+                let wide = window_of(&self.params, &candidate.seen).reach_m
+                    > self.params.candidates.wide_m;
+                if rank > 0 && wide {
+                    continue;
+                }
                 added.proposed += 1;
                 self.try_one(candidate, new, &current, &reached, added, probe);
             }

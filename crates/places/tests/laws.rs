@@ -194,7 +194,7 @@ proptest! {
         x in 4.4..7.4_f64, y in 0.8..4.2_f64, turn in -3.0..3.0_f64,
         dx in -0.5..0.5_f64, dy in -0.5..0.5_f64, dt in -0.2..0.2_f64,
     ) {
-        let known = Keyframe::new(scan(&ROOM, &Se2::new(x, y, turn)), 0.0, 20.0);
+        let known = Keyframe::new(scan(&ROOM, &Se2::new(x, y, turn)), 0.0, 20.0, 0.0);
         let points: Vec<Point2> = known.surface.iter().map(|s| s.point).collect();
         let table = Table::new(points.iter().copied(), 0.1);
         let window = Window {
@@ -233,9 +233,9 @@ proptest! {
         dx in -0.15..0.15_f64, dy in -0.15..0.15_f64, dt in -0.08..0.08_f64,
     ) {
         let here = Se2::new(x, y, turn);
-        let known = Keyframe::new(scan(&ROOM, &here), 0.0, 20.0);
+        let known = Keyframe::new(scan(&ROOM, &here), 0.0, 20.0, 0.0);
         let motion = Se2::new(dx, dy, dt);
-        let moved = Keyframe::new(scan(&ROOM, &(here * motion)), 0.0, 20.0);
+        let moved = Keyframe::new(scan(&ROOM, &(here * motion)), 0.0, 20.0, 0.0);
         let surfaces = Surfaces::new(&known.surface, 0.5);
         let noise = Noise { range_sigma_m: 0.02, correlated_points: 6.0 };
         let start = Se2::identity();

@@ -194,6 +194,9 @@ pub(super) struct ReplayArgs {
     /// Folder of the results [default: recordings/NAME]
     #[arg(long, value_name = "DIR")]
     pub(super) out: Option<PathBuf>,
+    /// Write the recording here instead of into the folder
+    #[arg(long, value_name = "FILE.rrd")]
+    pub(super) record: Option<PathBuf>,
     /// Replace the run that is in the folder already
     #[arg(long)]
     pub(super) force: bool,

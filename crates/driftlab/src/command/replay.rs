@@ -12,10 +12,14 @@ use super::config::load;
 use super::failure::Failure;
 use super::out::Out;
 use super::progress::Bar;
+use super::run::check_recording;
 use super::table::table;
-use crate::config::{ConfigError, Loaded, Poses};
-use crate::replay::{Asked, Log, PlanarLog, Replayed, files, read_matches, replay as replay_log};
-use crate::run::{Input, RunFolder, to_json};
+use crate::config::{ConfigError, Level, Loaded, Poses};
+use crate::replay::{
+    Asked, Log, PlanarLog, Replayed, files, read_matches, replay as replay_log,
+    start_replay_recording,
+};
+use crate::run::{Input, RunFolder, names, to_json};
 
 pub(super) fn replay(args: &ReplayArgs, out: &Out) -> Result<(), Failure> {
     let loaded = load(&args.input(), out)?;
@@ -23,6 +27,7 @@ pub(super) fn replay(args: &ReplayArgs, out: &Out) -> Result<(), Failure> {
     let default = || PathBuf::from("recordings").join(&loaded.config.name);
     let dir = args.out.clone().unwrap_or_else(default);
     RunFolder::check(&dir, args.force)?;
+    check_recording(args.record.as_deref(), args.force, loaded.config.record.level)?;
     let settings = loaded.config.replay.clone().unwrap_or_default();
     let topic = args.places.as_deref().and_then(topic_of);
     match Log::open(&args.log, &settings, topic)? {
@@ -94,15 +99,18 @@ fn planar(
     ));
 
     let mut folder = RunFolder::create(dir, args.force)?;
+    let file = args.record.clone().unwrap_or_else(|| folder.recording());
+    let recording = start_replay_recording(&config, log, &file, loaded.header())?;
     let mut bar = Bar::new("log", out);
-    let replayed = replay_log(&config, log, given.as_deref(), &asked, &mut |share, row| {
-        bar.update(share, || {
-            format!(
-                "replayed, keyframe {}, {:.0} m, {} places recognised",
-                row.vertices, row.distance_m, row.place_edges
-            )
+    let replayed =
+        replay_log(&config, log, given.as_deref(), &asked, recording, &mut |share, row| {
+            bar.update(share, || {
+                format!(
+                    "replayed, keyframe {}, {:.0} m, {} places recognised",
+                    row.vertices, row.distance_m, row.place_edges
+                )
+            });
         });
-    });
     bar.clear();
     let replayed = replayed?;
     for (name, content) in files(&config, log, &replayed, inputs)? {
@@ -111,6 +119,10 @@ fn planar(
     folder.finish()?;
     report(dir, &replayed, out)?;
     out.note(&format!("wrote {}", dir.display()));
+    if config.record.level != Level::Off {
+        let shown = if args.record.is_some() { file } else { dir.join(names::RECORDING) };
+        out.note(&format!("step through it with: driftlab view {}", shown.display()));
+    }
     Ok(())
 }
 

@@ -95,6 +95,7 @@ pub(super) fn by_graph(
     }
     course.views.resize(course.stops.len(), maps2d::volume::Samples::new());
     settle(config, sides.graph(), by_odometry, &mut course);
+    watched.shown.settled(&course.optimised, sides.relative());
     course.bytes = sides.relative().map_or(0, maps2d::ExplorationMap::bytes) as u64;
     Ok(course)
 }

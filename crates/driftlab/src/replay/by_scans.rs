@@ -64,7 +64,7 @@ pub(super) fn by_scans(
             front.keyframe(index, sides, watched)?;
         }
     }
-    Ok(front.finish(sides))
+    Ok(front.finish(sides, watched))
 }
 
 /// What of a log has passed by.
@@ -97,11 +97,9 @@ impl Front<'_> {
         sides.begin(step, self.distance_m, time_secs);
         watched.begin(step, self.distance_m, time_secs);
 
-        let (mut added, mut spent) = watched.places(|probe| {
-            let start = Instant::now();
-            let added = self.recognizer.add_with(scan.clone(), &driven, probe);
-            (added, start.elapsed())
-        });
+        let own = scan.clone();
+        let (mut added, mut spent) =
+            watched.shown.places(|probe| self.recognizer.add_with(own, &driven, probe));
         self.course.stops.push(Stop {
             scan: index,
             stamp_secs: logged.stamp_secs,
@@ -109,7 +107,7 @@ impl Front<'_> {
             odom_from_sensor: logged.odom_from_sensor,
         });
         let start = Instant::now();
-        self.take_given(index, &mut added);
+        self.take_given(index, &mut added, watched);
         spent += start.elapsed();
 
         let first = self.log.scans[self.course.stops[0].scan].odom_from_sensor;
@@ -119,7 +117,7 @@ impl Front<'_> {
         let scan = self.config.sensor.within_range(&scan);
         self.course.saw(&standing, &scan);
         sides.scanned(&standing, &scan);
-        self.settle(sides);
+        let poses = self.settle(sides, watched.shown.recording.is_on());
         let on_map = sides.end();
         self.course.cost(spent, on_map);
         self.course.gated.push(added.gated as u64);
@@ -136,11 +134,15 @@ impl Front<'_> {
             },
             &mut self.course,
             sides,
-        )
+        )?;
+        if let Some(poses) = poses {
+            watched.shown.settled(&poses, sides.relative());
+        }
+        Ok(())
     }
 
     /// Hands in the places that were given for this keyframe.
-    fn take_given(&mut self, index: usize, added: &mut Added) {
+    fn take_given(&mut self, index: usize, added: &mut Added, watched: &mut Watched<'_>) {
         let newest = self.course.stops.len() - 1;
         for (known, given) in self.given.of(index, newest, &self.course.stops) {
             added.proposed += 1;
@@ -149,6 +151,7 @@ impl Front<'_> {
             let measured = Measured { from: known, to: newest, from_from_to, covariance };
             if self.recognizer.given(&measured) {
                 added.closures.extend(self.recognizer.closures().last());
+                watched.shown.recording.closed(known, newest);
             }
         }
     }
@@ -179,23 +182,29 @@ impl Front<'_> {
         }
     }
 
-    /// Optimises for the maps that live by it, where enough has come since it was done last.
-    fn settle(&mut self, sides: &mut Sides) {
+    /// Optimises for the maps that live by it, and for the recording, where enough has come since it was
+    /// done last.
+    fn settle(&mut self, sides: &mut Sides, shown: bool) -> Option<Vec<Se2>> {
         let keyframes = self.recognizer.keyframes().len();
         let due = keyframes - self.settled_at >= self.replay.settle_every as usize;
         let closures = self.recognizer.closures().len();
-        if due && closures > self.settled_closures && sides.lives_by_poses() {
-            sides.settled(&self.recognizer.settled().map_from_keyframe);
-            (self.settled_at, self.settled_closures) = (keyframes, closures);
+        let asked = sides.lives_by_poses() || shown;
+        if !(due && closures > self.settled_closures && asked) {
+            return None;
         }
+        let poses = self.recognizer.settled().map_from_keyframe;
+        sides.settled(&poses);
+        (self.settled_at, self.settled_closures) = (keyframes, closures);
+        Some(poses)
     }
 
-    fn finish(mut self, sides: &mut Sides) -> (Course, Recognizer) {
+    fn finish(mut self, sides: &mut Sides, watched: &mut Watched<'_>) -> (Course, Recognizer) {
         let recognizer = self.recognizer;
         let settled = recognizer.settled();
         if recognizer.closures().len() > self.settled_closures {
             sides.settled(&settled.map_from_keyframe);
         }
+        watched.shown.settled(&settled.map_from_keyframe, sides.relative());
         let tally = recognizer.tally();
         let course = &mut self.course;
         course.factors = recognizer.graph();

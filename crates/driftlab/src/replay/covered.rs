@@ -1,4 +1,4 @@
-//! The area that was seen as free, over the keyframes (after [ISRR19] 6.3).
+//! The area that was seen as free, over the keyframes (after \[ISRR19\] 6.3).
 
 use std::collections::BTreeSet;
 

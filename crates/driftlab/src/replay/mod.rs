@@ -11,6 +11,7 @@
 //! | `sides` | the maps, each with what its kind is told |
 //! | `session`, `course` | the replay as a whole, and what it came to |
 //! | `between` | poses of all scans from those of the keyframes |
+//! | `recording` | what the recording is shown |
 //! | `relations`, `consistency`, `covered`, `judge` | metrics |
 //! | `report`, `steps`, `files` | the files of a replay |
 
@@ -30,6 +31,7 @@ mod log;
 mod messages;
 mod params;
 mod planar;
+mod recording;
 mod relations;
 mod report;
 mod session;
@@ -44,6 +46,7 @@ pub use given::{GivenMatch, Moment, read_matches};
 pub use judge::Asked;
 pub use log::Log;
 pub use planar::{LoggedStep, PlanarLog};
+pub use recording::start_replay_recording;
 pub use relations::{OverRelations, RelationErrors, Relations};
 pub use report::{PlaceToGo, ReplayMapMetrics, ReplayMetrics, ReplayTiming};
 pub use session::{Replayed, replay};

@@ -2,22 +2,23 @@
 
 use std::time::Instant;
 
-use instrument::{Recorder, StepEnd};
+use instrument::{ReplayRecording, StepEnd};
 use maps2d::Standing;
-use places::{PlaceEvent, Recognizer};
+use places::Recognizer;
 use pose::Se2;
-use probe::{Off, Probe};
 
 use super::by_graph::by_graph;
 use super::by_scans::by_scans;
 use super::course::Course;
 use super::given::GivenMatch;
 use super::judge::{Asked, judge};
+use super::recording::Shown;
 use super::report::{ReplayMetrics, ReplayTiming};
 use super::sides::Sides;
 use super::steps::ReplayRow;
 use super::{PlanarLog, ReplayError};
 use crate::config::Config;
+use crate::run::{RunError, to_json};
 
 /// What came of a replay.
 #[derive(Clone, Debug)]
@@ -46,20 +47,16 @@ pub(super) struct Progress<'a> {
 
 /// Who looks on while a log passes by.
 pub(super) struct Watched<'a> {
+    /// The recording.
+    pub shown: Shown<'a>,
     /// Told how far it is: the share of the log, and the last row.
     pub on_keyframe: &'a mut dyn FnMut(f64, &ReplayRow),
 }
 
 impl Watched<'_> {
     /// A keyframe begins: all events until its end belong to it.
-    pub fn begin(&mut self, _step: u64, _distance_m: f64, _time_secs: f64) {}
-
-    /// Lets place recognition work, with whoever listens.
-    pub fn places<T>(
-        &mut self,
-        work: impl FnOnce(&mut dyn PlaceProbe) -> (T, std::time::Duration),
-    ) -> (T, std::time::Duration) {
-        work(&mut Off)
+    pub fn begin(&mut self, step: u64, distance_m: f64, time_secs: f64) {
+        self.shown.recording.begin(step, distance_m, time_secs);
     }
 
     /// A keyframe ended: notes a row for each map.
@@ -104,6 +101,7 @@ impl Watched<'_> {
                 ],
             })?;
         }
+        self.shown.keyframes(course, now.recognizer, sides)?;
         if let Some(row) = course.rows.last() {
             (self.on_keyframe)(now.share, row);
         }
@@ -111,14 +109,9 @@ impl Watched<'_> {
     }
 }
 
-/// A listener of place recognition.
-pub(super) trait PlaceProbe: for<'a> Probe<PlaceEvent<'a>> {}
-
-impl<P: for<'a> Probe<PlaceEvent<'a>> + ?Sized> PlaceProbe for P {}
-
 /// Replays a planar log; the outcome but for the timing follows from config, log and matches alone.
 ///
-/// `given` takes the place of recognition. `on_keyframe` is told the share of the log that passed by.
+/// `given` takes the place of recognition; the recording listens, and is finished. `on_keyframe` is told the share of the log that passed by.
 ///
 /// # Errors
 /// Where the config asks for what no log has, and where the recording cannot be written.
@@ -127,13 +120,14 @@ pub fn replay(
     log: &PlanarLog,
     given: Option<&[GivenMatch]>,
     asked: &Asked,
+    mut recording: ReplayRecording,
     on_keyframe: &mut dyn FnMut(f64, &ReplayRow),
 ) -> Result<Replayed, ReplayError> {
     let started = Instant::now();
     let settings = config.replay.clone().unwrap_or_default();
     let own_graph = log.graph.is_some() && given.is_none();
-    let mut sides = Sides::new(config, own_graph, |_| Recorder::off());
-    let mut watched = Watched { on_keyframe };
+    let mut sides = Sides::new(config, own_graph, |name| recording.recorder(name));
+    let mut watched = Watched { shown: Shown::new(config, &mut recording), on_keyframe };
     let (mut course, recognizer) = match &log.graph {
         Some(steps) if own_graph => (by_graph(config, log, steps, &mut sides, &mut watched)?, None),
         _ => {
@@ -151,6 +145,10 @@ pub fn replay(
         (measured.from, measured.to, measured.from_from_to, sigmas[0], sigmas[1])
     });
     let closures = closures.collect();
+    for mut side in std::mem::take(&mut sides.all) {
+        side.recorder.send()?;
+    }
+    recording.finish(&to_json(&metrics).map_err(RunError::from)?)?;
     timing.wall_secs = started.elapsed().as_secs_f64();
     Ok(Replayed { course, metrics, timing, closures })
 }

@@ -102,7 +102,9 @@ pub(crate) fn result(metrics: &serde_json::Value) -> String {
     page.push_str("\n|---|");
     maps.keys().for_each(|_| page.push_str("---|"));
     let rows = maps.values().next().and_then(serde_json::Value::as_object);
-    for key in rows.into_iter().flat_map(|row| row.keys()) {
+    // Lists are for programs.
+    let is_list = |key: &String| maps.values().any(|map| map[key.as_str()].is_array());
+    for key in rows.into_iter().flat_map(|row| row.keys()).filter(|key| !is_list(key)) {
         page.push_str(&format!("\n| {key} |"));
         for map in maps.values() {
             let value = map.get(key).map_or_else(String::new, plain);

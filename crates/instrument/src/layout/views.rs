@@ -158,7 +158,7 @@ fn side(layout: &mut Layout<'_>, options: &RecordingOptions) -> RecordingStreamR
 }
 
 /// Bounds of a view, whose y axis points down.
-fn bounds(low: &Point2, high: &Point2, margin_m: f64) -> VisualBounds2D {
+pub(super) fn bounds(low: &Point2, high: &Point2, margin_m: f64) -> VisualBounds2D {
     VisualBounds2D::new(rerun::datatypes::Range2D {
         x_range: [low.x - margin_m, high.x + margin_m].into(),
         y_range: [-high.y - margin_m, -low.y + margin_m].into(),

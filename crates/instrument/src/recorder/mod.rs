@@ -25,7 +25,7 @@ use crate::columns::Lines;
 use crate::palette;
 
 /// A robot as a chevron with its tip ahead; 0.7 m long.
-fn draw_robot(lines: &mut Lines, frame_from_body: &Se2) {
+pub(crate) fn draw_robot(lines: &mut Lines, frame_from_body: &Se2) {
     let outline = [(-0.3, 0.3), (0.4, 0.0), (-0.3, -0.3)];
     let outline = outline.map(|(x, y)| frame_from_body.transform(&Point2::new(x, y)));
     lines.strip(outline, palette::ROBOT);
