@@ -110,6 +110,27 @@ fn a_recording_tells_every_event_and_opens_with_its_layout() {
 }
 
 #[test]
+fn one_robot_feeds_all_maps_and_the_united_one_tells_what_it_does() {
+    let maps = "[map3d.global_union]\nvertices = 200\n[map3d.voxels]\ncell_m = 0.1\n";
+    let desk = Desk::new(&format!("{SMALL}{maps}"));
+    let set = ["--set", "compare.drive=\"relative\"", "--set", "record.level=\"full\""];
+    let run = [&["run", "a.toml", "--out", "r", "--json"][..], &set].concat();
+    let result = json(&desk.driftlab(&run));
+    let maps = result["metrics"]["maps"].as_object().expect("one object per map");
+    assert_eq!(maps.keys().collect::<Vec<_>>(), ["global_union", "relative", "voxels"]);
+    for (name, map) in maps {
+        assert_eq!(map["distance_m"], maps["relative"]["distance_m"], "{name}");
+        assert!(map["frontier_left_m2"].as_f64().is_some_and(|left| left > 0.1), "{name}: {map}");
+    }
+    let result = json(&desk.driftlab(&["inspect", "r", "--json"]));
+    let events = result["events"].as_array().expect("a list");
+    for variant in ["Placed", "United", "Sorted"] {
+        let is_told = |one: &Value| one["map"] == "/global_union" && one["variant"] == variant;
+        assert!(events.iter().any(is_told), "{variant}: {events:?}");
+    }
+}
+
+#[test]
 fn a_mesh_file_is_flown_in_and_replaces_another_place() {
     let desk = Desk::new(SMALL);
     desk.put("box.obj", BOX);

@@ -27,7 +27,7 @@ pub(super) fn run(args: &RunArgs, out: &Out) -> Result<(), Failure> {
     }
     let dir = out_dir(args, &loaded);
     RunFolder::check(&dir, args.force)?;
-    check_recording(args, loaded.config.record.level)?;
+    check_recording(args.record.as_deref(), args.force, loaded.config.record.level)?;
     if loaded.config.is_of_space() {
         return flight::run(args, &loaded, &dir, out);
     }
@@ -93,13 +93,17 @@ fn wrote(args: &RunArgs, dir: &Path, level: Level, out: &Out) {
 }
 
 /// A recording somewhere else must not hit a file that is there already.
-fn check_recording(args: &RunArgs, level: Level) -> Result<(), Failure> {
-    let Some(file) = &args.record else { return Ok(()) };
+pub(super) fn check_recording(
+    record: Option<&Path>,
+    force: bool,
+    level: Level,
+) -> Result<(), Failure> {
+    let Some(file) = record else { return Ok(()) };
     if level == Level::Off {
         let hint = "expected record.level \"summary\" or \"full\" with --record";
         return Err(Failure::Input(anyhow!("record.level is \"off\"; {hint}")));
     }
-    if file.is_dir() || (file.exists() && !args.force) {
+    if file.is_dir() || (file.exists() && !force) {
         let hint = "name another file, or --force to replace it";
         return Err(Failure::Input(anyhow!("{}: is there already; {hint}", file.display())));
     }

@@ -10,10 +10,11 @@ use super::schema::{Property, is_variant_table, properties, property_at, resolve
 use super::space::is_only_of_the_plane;
 use super::{
     ActiveAreaMap, Camera, Cave3dWorld, CavesWorld, Config, CorrectedPolygonsMap, CorridorWorld,
-    ExtendedMap, GridCorrectedMap, GridMap, ImageWorld, Loaded, MapServerWorld, MazeWorld,
-    MeshWorld, Metrics3d, MovingAiWorld, Office3dWorld, Origin, PaperWorld, Pillars3dWorld,
-    PillarsWorld, Planner3d, PolygonsWorld, RapidPlanner, RelativeMap, RelativeMap3d, Replay,
-    Rooms3dWorld, RoomsWorld, RunSweep, Start, SurveyPlanner, ThesisWorld,
+    ExtendedMap, GlobalUnionMap3d, GridCorrectedMap, GridMap, ImageWorld, Loaded, MapServerWorld,
+    MazeWorld, MeshWorld, Metrics3d, MovingAiWorld, Office3dWorld, Origin, PaperWorld,
+    Pillars3dWorld, PillarsWorld, Planner3d, PolygonsWorld, RapidPlanner, RelativeMap,
+    RelativeMap3d, Replay, Rooms3dWorld, RoomsWorld, RunSweep, Start, SurveyPlanner, ThesisWorld,
+    VoxelsMap3d,
 };
 
 /// The resolved config as TOML, each value with its origin as a comment.
@@ -190,6 +191,8 @@ fn optional_tables() -> Vec<(&'static str, bool, toml::Table)> {
         ("world3d.cave", false, table_of(&Cave3dWorld::default())),
         ("camera", false, table_of(&Camera::default())),
         ("map3d.relative", false, table_of(&RelativeMap3d::default())),
+        ("map3d.global_union", false, table_of(&GlobalUnionMap3d::default())),
+        ("map3d.voxels", false, table_of(&VoxelsMap3d::default())),
         ("planner3d", false, table_of(&Planner3d::default())),
         ("metrics3d", false, table_of(&Metrics3d::default())),
         ("map.relative", true, table_of(&RelativeMap::default())),

@@ -2,6 +2,7 @@
 
 use explore::FlightEvent;
 use maps3d::DepthEvent;
+use maps3d::global_union::UnionEvent;
 use maps3d::relative::ConsolidationEvent;
 use metrics::VoxelCoverage;
 use probe::Probe;
@@ -10,7 +11,7 @@ use worlds::World3d;
 use super::{FlightSeen, FlightWatch};
 use crate::run::{AtWork, Fan, of_the_map_at_work};
 
-of_the_map_at_work!(DepthEvent, ConsolidationEvent);
+of_the_map_at_work!(DepthEvent, ConsolidationEvent, UnionEvent);
 
 impl<W: for<'a> Probe<FlightEvent<'a>>> Probe<FlightEvent<'_>> for Fan<W> {
     fn on(&self) -> bool {

@@ -3,10 +3,11 @@
 use std::time::Instant;
 
 use geometry::Point3;
+use maps3d::global_union::UnionMap;
 use maps3d::relative::RelativeMap;
 use maps3d::{
     FlightClearance, FlightRoute, FrontierPatch, Hovering, Known, Look, Map3d, Map3dProbe,
-    MapTally, MapWork, Maps3dError,
+    MapTally, MapWork, Maps3dError, VoxelMap,
 };
 use pose::Se3;
 use posegraph::PoseGraph;
@@ -27,6 +28,14 @@ pub(super) fn map_of(
     let made: Option<Box<dyn Map3d + Send>> = match kind {
         "relative" => match &maps.relative {
             Some(map) => Some(Box::new(RelativeMap::new(map.into())?)),
+            None => None,
+        },
+        "global_union" => match &maps.global_union {
+            Some(map) => Some(Box::new(UnionMap::new(map.params(&config.odometry))?)),
+            None => None,
+        },
+        "voxels" => match &maps.voxels {
+            Some(map) => Some(Box::new(VoxelMap::new(map.into())?)),
             None => None,
         },
         _ => None,

@@ -1,8 +1,9 @@
 //! Every event in order: a line of text each, and what it draws.
 
 use explore::FlightEvent;
+use maps3d::DepthEvent;
+use maps3d::global_union::UnionEvent;
 use maps3d::relative::ConsolidationEvent;
-use maps3d::{DepthEvent, UnionEvent};
 use probe::Probe;
 
 use super::views::{self, ClosedFaces};
@@ -106,6 +107,16 @@ impl Probe<ConsolidationEvent<'_>> for FlightRecorder {
     }
 }
 
+impl FlightRecorder {
+    /// Tells of the faces that were closed in a row, if any were.
+    fn tell_closed(&mut self) {
+        let Some(closed) = self.closed.take() else { return };
+        self.next_event();
+        let line = closed.line();
+        self.ink.say(Family::Consolidation.name(), "Closed", format_args!("{line}"));
+    }
+}
+
 impl Probe<UnionEvent<'_>> for FlightRecorder {
     fn on(&self) -> bool {
         self.ink.is_on()
@@ -121,19 +132,6 @@ impl Probe<UnionEvent<'_>> for FlightRecorder {
             let line = union::line(&event);
             self.ink.say(family.name(), event.variant(), format_args!("{line}"));
         }
-        if let UnionEvent::Placed { view: 0, .. } = event {
-            union::place(&mut self.ink, &self.world_from_start);
-        }
         union::draw(&mut self.ink, &event);
-    }
-}
-
-impl FlightRecorder {
-    /// Tells of the faces that were closed in a row, if any were.
-    fn tell_closed(&mut self) {
-        let Some(closed) = self.closed.take() else { return };
-        self.next_event();
-        let line = closed.line();
-        self.ink.say(Family::Consolidation.name(), "Closed", format_args!("{line}"));
     }
 }

@@ -7,8 +7,8 @@
 //! | `truth` | the place, the true path, what was really seen |
 //! | `looks` | depth images, and the way to a polyhedron |
 //! | `graph` | vertices and edges by odometry |
+//! | `union` | the united map |
 //! | `views` | the views of the relative map around the robot |
-//! | `union` | the united map: operands, the map, its corrections and paths |
 //! | `planner` | what is to be looked at, from where, and the way there |
 //! | `events` | every event in order, a line each |
 

@@ -11,7 +11,7 @@ use super::graph::Graph;
 use super::ink::{Ink, placed};
 use super::truth::{Truth, body};
 use super::views::{ClosedFaces, Views};
-use super::{looks, planner};
+use super::{looks, planner, union};
 use crate::stage::Stage;
 use crate::{Every, Family, InstrumentError, Level};
 
@@ -91,6 +91,9 @@ impl FlightRecorder {
             self.truth.place(&mut self.ink, world, coverage);
             body(&mut self.ink, "truth/robot", 0.2);
             body(&mut self.ink, "belief/robot", 0.2);
+            if !self.around_robot {
+                union::place(&mut self.ink, &self.world_from_start);
+            }
         }
         self.ink.take_refusal()
     }

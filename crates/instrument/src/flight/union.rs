@@ -1,7 +1,7 @@
 //! The united map: operands, the union, what was left beside it, tetrahedra and paths.
 
 use geometry::Point3;
-use maps3d::UnionEvent;
+use maps3d::global_union::UnionEvent;
 use pose::Se3;
 use solid::Polyhedron;
 
@@ -11,9 +11,6 @@ use crate::{Family, palette};
 /// Draws what an event of the united map is about under `belief/union`, in the frame `map`.
 pub(super) fn draw(ink: &mut Ink, event: &UnionEvent<'_>) {
     match event {
-        UnionEvent::Placed { operand, .. } => {
-            ink.draw("belief/union/operand", &Faces::inside_of(operand).mesh());
-        }
         UnionEvent::United { map, .. }
         | UnionEvent::Cleaned { map, .. }
         | UnionEvent::Rebuilt { map, .. } => draw_map(ink, map),
@@ -30,64 +27,6 @@ pub(super) fn draw(ink: &mut Ink, event: &UnionEvent<'_>) {
     }
 }
 
-/// What an event is about.
-pub(super) fn family_of(event: &UnionEvent<'_>) -> Family {
-    match event {
-        UnionEvent::Corrected { .. }
-        | UnionEvent::NotCorrected { .. }
-        | UnionEvent::Rebuilt { .. } => Family::Correction,
-        UnionEvent::Planned { .. } | UnionEvent::GivenUp { .. } => Family::Planner,
-        _ => Family::Polygons,
-    }
-}
-
-/// An event in one line.
-pub(super) fn line(event: &UnionEvent<'_>) -> String {
-    match event {
-        UnionEvent::Placed { view, vertex, operand, .. } => {
-            format!("view {view} at vertex {vertex}: {} faces", operand.faces().len())
-        }
-        UnionEvent::United { view, map, settled } => format!(
-            "view {view}: {} faces, {settled} of them frontier that became obstacle",
-            map.faces().len()
-        ),
-        UnionEvent::Cleaned { map, removed } => {
-            format!("{} vertices taken out, {} faces left", removed.len(), map.faces().len())
-        }
-        UnionEvent::Refused { view, why } => format!("view {view} stands beside the map: {why}"),
-        UnionEvent::Sorted { patches, sliver_m2 } => {
-            let open_m2: f64 = patches.iter().map(|patch| patch.area_m2).sum();
-            let count = patches.len();
-            format!("{count} patches, {open_m2:.3} m² open, {sliver_m2:.3} m² too small")
-        }
-        UnionEvent::Corrected { new_places, moved_max_m, .. } => {
-            format!("{new_places} new place edges moved vertices by up to {moved_max_m:.3} m")
-        }
-        UnionEvent::NotCorrected { report } => {
-            format!("the poses stay: {:?}", report.termination)
-        }
-        UnionEvent::Rebuilt { views, moved_max_m, .. } => {
-            format!("{views} views united again, moved by up to {moved_max_m:.3} m")
-        }
-        UnionEvent::Filled { tetrahedra } => format!("{} tetrahedra", tetrahedra.tetrahedra.len()),
-        UnionEvent::Fanned { why, fans } => format!("{fans} fans stand for the map: {why}"),
-        UnionEvent::Planned { plan, given } => format!(
-            "{:.3} m through {} tetrahedra, {:.3} m after shortening; {} points given",
-            plan.cost_m,
-            plan.corridor.tetrahedra.len(),
-            plan.path_m,
-            given.len()
-        ),
-        UnionEvent::GivenUp { place, radius_m, unreachable } => format!(
-            "within {radius_m:.2} m of ({:.2}, {:.2}, {:.2}){}",
-            place.x,
-            place.y,
-            place.z,
-            if *unreachable { ": no way leads there" } else { "" }
-        ),
-    }
-}
-
 fn draw_map(ink: &mut Ink, map: &Polyhedron) {
     ink.draw("belief/union/map", &Faces::inside_of(map).mesh());
 }
@@ -95,6 +34,58 @@ fn draw_map(ink: &mut Ink, map: &Polyhedron) {
 /// Where the map's frame lies in the one that is drawn; at all times.
 pub(super) fn place(ink: &mut Ink, world_from_map: &Se3) {
     ink.always("belief/union", &placed(world_from_map));
+}
+
+/// One line about an event of the united map.
+pub(super) fn line(event: &UnionEvent<'_>) -> String {
+    match event {
+        UnionEvent::Placed { view, vertex, operand, .. } => {
+            format!("view {view} at vertex {vertex}: {} faces", operand.faces().len())
+        }
+        UnionEvent::United { view, map, settled } => format!(
+            "view {view}: the map has {} faces, {settled} of frontier became obstacle",
+            map.faces().len()
+        ),
+        UnionEvent::Cleaned { map, .. } => format!("{} faces are left", map.faces().len()),
+        UnionEvent::Refused { view, why } => format!("view {view}: {why}"),
+        UnionEvent::Sorted { patches, sliver_m2 } => {
+            format!("{} patches of frontier, {sliver_m2:.3} m² too small", patches.len())
+        }
+        UnionEvent::Corrected { new_places, moved_max_m, .. } => {
+            format!("{new_places} places: vertices moved by up to {moved_max_m:.2} m")
+        }
+        UnionEvent::NotCorrected { .. } => "the poses stay as they were".to_owned(),
+        UnionEvent::Rebuilt { views, moved_max_m, map } => {
+            format!("{views} views, moved by up to {moved_max_m:.2} m: {} faces", map.faces().len())
+        }
+        UnionEvent::Filled { tetrahedra } => {
+            format!("{} tetrahedra", tetrahedra.tetrahedra.len())
+        }
+        UnionEvent::Fanned { why, fans } => format!("{fans} fans in place of tetrahedra: {why}"),
+        UnionEvent::Planned { plan, given } => format!(
+            "{:.2} m through centroids, {:.2} m shortened, {} points given",
+            plan.straight_m,
+            plan.path_m,
+            given.len()
+        ),
+        UnionEvent::GivenUp { radius_m, unreachable, .. } => {
+            let why = if *unreachable { "no way leads there" } else { "it was looked at" };
+            format!("within {radius_m:.2} m: {why}")
+        }
+    }
+}
+
+/// What an event is about.
+pub(super) fn family_of(event: &UnionEvent<'_>) -> Family {
+    match event {
+        UnionEvent::Corrected { .. }
+        | UnionEvent::NotCorrected { .. }
+        | UnionEvent::Rebuilt { .. } => Family::Correction,
+        UnionEvent::Filled { .. } | UnionEvent::Fanned { .. } | UnionEvent::Planned { .. } => {
+            Family::Planner
+        }
+        _ => Family::Polygons,
+    }
 }
 
 fn trajectory(map_from_vertex: &[Se3], colour: crate::columns::Rgba) -> rerun::LineStrips3D {
