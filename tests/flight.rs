@@ -117,7 +117,7 @@ fn one_robot_feeds_all_maps_and_the_united_one_tells_what_it_does() {
     let run = [&["run", "a.toml", "--out", "r", "--json"][..], &set].concat();
     let result = json(&desk.driftlab(&run));
     let maps = result["metrics"]["maps"].as_object().expect("one object per map");
-    assert_eq!(maps.keys().collect::<Vec<_>>(), ["global_union", "relative", "voxels"]);
+    assert_eq!(maps.keys().collect::<Vec<_>>(), ["relative", "global_union", "voxels"]);
     for (name, map) in maps {
         assert_eq!(map["distance_m"], maps["relative"]["distance_m"], "{name}");
         assert!(map["frontier_left_m2"].as_f64().is_some_and(|left| left > 0.1), "{name}: {map}");

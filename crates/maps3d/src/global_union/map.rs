@@ -533,7 +533,8 @@ mod tests {
         // A view that lacks a face is no closed 2-manifold.
         let (vertices, mut faces, mut labels, _) = view().into_parts();
         let lost = faces.len() - 1;
-        (faces.truncate(lost), labels.truncate(lost));
+        faces.truncate(lost);
+        labels.truncate(lost);
         let open = Polyhedron::try_new(vertices, faces, labels).expect("faces that exist");
         take(&mut map, open, 1.0);
         assert!(map.polyhedron() == &before);

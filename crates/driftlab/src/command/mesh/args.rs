@@ -102,6 +102,7 @@ pub(super) enum MeshCommand {
     Room(RoomArgs),
     /// Find a path through the inside of a mesh, to a point or to the nearest frontier
     #[command(
+        allow_negative_numbers = true,
         long_about = "Find a path through the inside of a mesh, to a point or to the nearest frontier.\n\n\
             The mesh is filled with tetrahedra. Their dual graph is searched; frontier faces have nodes of \
             their own, several where they are large. Then the path is shortened inside of its corridor by \

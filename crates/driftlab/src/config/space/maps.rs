@@ -148,7 +148,7 @@ impl GlobalUnionMap3d {
             ..UnionCorrection::default()
         });
         UnionParams {
-            view: view_of(self.vertices),
+            view: view_of(self.vertices, UnionParams::default().view),
             sliver_m2: self.sliver_m2,
             wall_m: self.wall_m,
             correction,
