@@ -1,5 +1,7 @@
 //! `driftlab replay`: the maps of a config, fed by a log.
 
+mod depth;
+
 use std::fs;
 use std::path::{Path, PathBuf};
 
@@ -28,14 +30,10 @@ pub(super) fn replay(args: &ReplayArgs, out: &Out) -> Result<(), Failure> {
     let dir = args.out.clone().unwrap_or_else(default);
     RunFolder::check(&dir, args.force)?;
     check_recording(args.record.as_deref(), args.force, loaded.config.record.level)?;
-    let settings = loaded.config.replay.clone().unwrap_or_default();
     let topic = args.places.as_deref().and_then(topic_of);
-    match Log::open(&args.log, &settings, topic)? {
+    match Log::open(&args.log, &loaded.config, topic)? {
         Log::Planar(log) => planar(args, &loaded, &log, &dir, out),
-        Log::Depth(folder) => Err(Failure::Input(anyhow!(
-            "{}: found a folder, expected a log with scans of a planar laser",
-            folder.display()
-        ))),
+        Log::Depth(mut frames) => depth::replay(args, &loaded, &mut frames, &dir, out),
     }
 }
 

@@ -129,10 +129,10 @@ fn between_keys(config: &Config, faults: &mut Vec<Fault>) {
         faults.push(fault("compare.drive", format!("{drive:?}"), expected));
     }
     let (world, has_world) = match config.is_of_space() {
-        true => ("world3d", config.world3d.is_some()),
-        false => ("world", config.world.is_some()),
+        true => ("world3d", config.world3d.is_some() || config.replay3d.is_some()),
+        false => ("world", config.world.is_some() || config.replay.is_some()),
     };
-    if !has_world && config.replay.is_none() {
+    if !has_world {
         let kinds = properties_of(world).join(", ");
         faults.push(fault("", "no world".into(), format!("exactly one table of {kinds}")));
     }

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     Camera, Compare, Maps, Maps3d, Metrics, Metrics3d, Odometry, Places, Planner, Planner3d,
-    Record, Replay, Robot, RunSweep, Sensor, World, World3d,
+    Record, Replay, Replay3d, Robot, RunSweep, Sensor, World, World3d,
 };
 
 /// One experiment: a place, a robot in it, and the maps that it builds.
@@ -71,6 +71,9 @@ pub struct Config {
     /// How `driftlab replay` takes a log; nobody else asks. A config with this table needs no world.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub replay: Option<Replay>,
+    /// How `driftlab replay` takes depth images; nobody else asks. A config with this table needs no world.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub replay3d: Option<Replay3d>,
     /// What `driftlab sweep` varies; nobody else asks.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub sweep: Option<RunSweep>,
@@ -101,6 +104,7 @@ impl Default for Config {
             metrics3d: None,
             record: Record::default(),
             replay: None,
+            replay3d: None,
             sweep: None,
         }
     }

@@ -13,8 +13,8 @@ use super::{
     ExtendedMap, GlobalUnionMap3d, GridCorrectedMap, GridMap, ImageWorld, Loaded, MapServerWorld,
     MazeWorld, MeshWorld, Metrics3d, MovingAiWorld, Office3dWorld, Origin, PaperWorld,
     Pillars3dWorld, PillarsWorld, Planner3d, PolygonsWorld, RapidPlanner, RelativeMap,
-    RelativeMap3d, Replay, Rooms3dWorld, RoomsWorld, RunSweep, Start, SurveyPlanner, ThesisWorld,
-    VoxelsMap3d,
+    RelativeMap3d, Replay, Replay3d, Rooms3dWorld, RoomsWorld, RunSweep, Start, SurveyPlanner,
+    ThesisWorld, VoxelsMap3d,
 };
 
 /// The resolved config as TOML, each value with its origin as a comment.
@@ -204,6 +204,7 @@ fn optional_tables() -> Vec<(&'static str, bool, toml::Table)> {
         ("planner.rapid", true, table_of(&RapidPlanner::default())),
         ("planner.survey", false, table_of(&SurveyPlanner::default())),
         ("replay", false, table_of(&Replay::default())),
+        ("replay3d", false, table_of(&Replay3d { max_m: Some(8.0), ..Replay3d::default() })),
         (
             "sweep",
             false,

@@ -31,6 +31,7 @@ pub fn start_flight_recording(
         about: about.to_owned(),
         config: plain_toml(config)?,
         bounds_in_world: experiment.place.world.bounds(),
+        has_truth: true,
     })?)
 }
 

@@ -59,6 +59,11 @@ impl FolderLog {
         &self.folder.warnings
     }
 
+    /// Share of the images that were opened.
+    pub(super) fn share(&self) -> f64 {
+        self.next as f64 / self.folder.frames.len().max(1) as f64
+    }
+
     /// The next message: of each frame its pose, its camera where that is known, its image.
     pub(super) fn next_message(&mut self) -> Result<Option<Message>, LogError> {
         if self.waiting.is_empty() {

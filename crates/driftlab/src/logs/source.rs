@@ -127,6 +127,14 @@ impl LogSource {
         matches!(self.inner, Inner::Recording(_))
     }
 
+    /// The share that was read, where that is known.
+    pub fn share(&self) -> Option<f64> {
+        match &self.inner {
+            Inner::Folder(folder) => Some(folder.share()),
+            Inner::Recording(_) | Inner::Text(..) => None,
+        }
+    }
+
     /// The next message that is read; `None` at the end or at damage.
     ///
     /// # Errors

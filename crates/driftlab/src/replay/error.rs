@@ -3,8 +3,10 @@
 use std::path::PathBuf;
 
 use instrument::InstrumentError;
+use maps3d::Maps3dError;
 
 use crate::config::ConfigError;
+use crate::logs::LogError;
 use crate::run::RunError;
 
 /// Why a log cannot be replayed.
@@ -19,6 +21,12 @@ pub enum ReplayError {
         /// What was found, and what was expected.
         message: String,
     },
+    /// The log cannot be read.
+    #[error(transparent)]
+    Log(#[from] LogError),
+    /// A map whose parameters do not go together.
+    #[error(transparent)]
+    Map(#[from] Maps3dError),
     /// The config does not fit a log.
     #[error(transparent)]
     Config(#[from] ConfigError),
@@ -38,6 +46,6 @@ impl ReplayError {
 
     /// Whether the input is to blame, not the work.
     pub fn is_input(&self) -> bool {
-        matches!(self, Self::Input { .. } | Self::Config(_))
+        matches!(self, Self::Input { .. } | Self::Log(_) | Self::Map(_) | Self::Config(_))
     }
 }

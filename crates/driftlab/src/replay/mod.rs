@@ -13,6 +13,7 @@
 //! | `between` | poses of all scans from those of the keyframes |
 //! | `recording` | what the recording is shown |
 //! | `relations`, `consistency`, `covered`, `judge` | metrics |
+//! | `depth` | the same for depth images, and maps of space |
 //! | `report`, `steps`, `files` | the files of a replay |
 
 mod between;
@@ -21,6 +22,7 @@ mod by_scans;
 mod consistency;
 mod course;
 mod covered;
+mod depth;
 mod digest;
 mod error;
 mod files;
@@ -40,6 +42,10 @@ mod steps;
 
 pub use consistency::Inconsistency;
 pub use course::{Closures, Course, Stop};
+pub use depth::{
+    DepthFrame, DepthFrames, DepthMapMetrics, DepthMapTiming, DepthMetrics, DepthReplayed,
+    DepthTiming, depth_files, replay_depth,
+};
 pub use error::ReplayError;
 pub use files::files;
 pub use given::{GivenMatch, Moment, read_matches};

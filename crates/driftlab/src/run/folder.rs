@@ -28,8 +28,14 @@ pub mod names {
     pub const GRAPH: &str = "graph.g2o";
     /// Of a replay: the accepted closures.
     pub const CLOSURES: &str = "closures.txt";
+    /// Of a replay of depth images: where the camera was, in TUM's form.
+    pub const CAMERA: &str = "camera.tum";
+    /// Of a replay of depth images: the united map, labelled.
+    pub const UNION_MESH: &str = "global_union.ply";
+    /// Of a replay of depth images: the faces of all views of the relative map, labelled.
+    pub const RELATIVE_MESH: &str = "relative.ply";
     /// All of them.
-    pub const ALL: [&str; 11] = [
+    pub const ALL: [&str; 14] = [
         RECORDING,
         CONFIG,
         METRICS,
@@ -41,6 +47,9 @@ pub mod names {
         OPTIMISED,
         GRAPH,
         CLOSURES,
+        CAMERA,
+        UNION_MESH,
+        RELATIVE_MESH,
     ];
 }
 

@@ -25,6 +25,8 @@ pub struct FlightOptions {
     pub config: String,
     /// Lowest and highest corner of the place in the world frame, for the first look.
     pub bounds_in_world: (Point3, Point3),
+    /// Whether a simulator knows the truth; a log does not.
+    pub has_truth: bool,
 }
 
 impl FlightOptions {

@@ -21,8 +21,19 @@ pub(super) fn about(options: &FlightOptions) -> String {
                  view in scope is laid out along its shortest path through the pose graph, there is \
                  no global map"
             }
-            false => "in the map's own global frame, laid onto the truth where the robot started",
+            false if options.has_truth => {
+                "in the map's own global frame, laid onto the truth where the robot started"
+            }
+            false => "in the map's own global frame, which is that of the first image",
         };
+        if !options.has_truth {
+            page.push_str(&format!(
+                "- **{map}**: the belief, {belief}. In tabs or below: the depth image; the last view's \
+                 polyhedron; the pose graph. The red line at the last step leads to the nearest \
+                 frontier.\n",
+            ));
+            continue;
+        }
         page.push_str(&format!(
             "- **{map}**, left: the true place, the true path, the voxels first seen at this step; no \
              map and no policy ever sees this. Right: the belief, {belief}. In tabs: the depth image; \
@@ -40,7 +51,7 @@ pub(super) fn about(options: &FlightOptions) -> String {
         );
     }
     page.push_str("\n## Colours\n\n| colour | means |\n|---|---|\n");
-    for (colour, what) in [
+    let rows = [
         ("orange face", "frontier: nobody knows what lies behind"),
         ("grey face", "obstacle"),
         ("green points, left", "voxels first seen at this step"),
@@ -51,7 +62,11 @@ pub(super) fn about(options: &FlightOptions) -> String {
         ("purple point", "frontier that is given up"),
         ("blue line", "path: true where it lies in the truth, odometry in the pose graph"),
         ("magenta line", "place edge of the pose graph"),
-    ] {
+    ];
+    for (colour, what) in rows {
+        if !options.has_truth && (colour.contains("left") || what.contains("true")) {
+            continue;
+        }
         page.push_str(&format!("| {colour} | {what} |\n"));
     }
     page

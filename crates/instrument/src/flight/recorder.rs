@@ -98,6 +98,13 @@ impl FlightRecorder {
         self.ink.take_refusal()
     }
 
+    /// Instead of a place: the images come from a log, of which nobody knows more. Once, before the first step.
+    pub fn without_place(&mut self) {
+        if self.ink.is_on() {
+            body(&mut self.ink, "belief/robot", 0.05);
+        }
+    }
+
     /// A step starts; all events until its end belong to it.
     pub fn begin_step(&mut self, step: u64, distance_m: f64) {
         self.step = step;

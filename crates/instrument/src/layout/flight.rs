@@ -48,10 +48,17 @@ fn map_row(
             properties: vec![("Background", &dark), ("EyeControls3D", eye)],
         })
     };
-    let truth = space(layout, "truth, and what was really seen", &whole, &["+ $map/truth/**"])?;
+    let truth = match options.has_truth {
+        true => {
+            let title = "truth, and what was really seen";
+            vec![space(layout, title, &whole, &["+ $map/truth/**"])?]
+        }
+        false => Vec::new(),
+    };
     let (title, sight) = match is_around {
         true => ("belief around the robot", &around),
-        false => ("belief, from the true start", &whole),
+        false if options.has_truth => ("belief, from the true start", &whole),
+        false => ("belief, from the first image", &whole),
     };
     let believed = space(layout, title, sight, &["+ $map/belief/**", "- $map/belief/look/**"])?;
     let look = space(
@@ -60,9 +67,11 @@ fn map_row(
         if is_around { &near } else { &whole },
         &["+ $map/belief/look/**", "+ $map/belief/robot/**", "+ $map/belief/planner/**"],
     )?;
+    let graph_title =
+        if options.has_truth { "pose graph by odometry" } else { "pose graph by the log's poses" };
     let graph = space(
         layout,
-        "pose graph by odometry",
+        graph_title,
         &whole,
         &["+ $map/graph/**", "+ $map/truth/path/**", "+ $map/truth/robot/**"],
     )?;
@@ -73,7 +82,10 @@ fn map_row(
         contents: vec!["+ $origin/**".to_owned()],
         properties: vec![("Background", &dark)],
     })?;
-    let above = layout.container(ContainerKind::Horizontal, &[truth, believed], &[1.0, 1.0])?;
+    let mut above = truth;
+    above.push(believed);
+    let shares = vec![1.0; above.len()];
+    let above = layout.container(ContainerKind::Horizontal, &above, &shares)?;
     if options.maps.len() == 1 {
         let below =
             layout.container(ContainerKind::Horizontal, &[image, look, graph], &[0.8, 1.0, 1.0])?;
@@ -106,17 +118,23 @@ fn side(layout: &mut Layout<'_>, options: &FlightOptions) -> RecordingStreamResu
             .flat_map(|map| series.iter().map(move |one| format!("/plots/{map}/{one}")));
         layout.plot(name, Corner2D::LeftTop, paths.collect::<Vec<_>>())
     };
-    let coverage = plot(layout, "coverage", &["coverage"])?;
-    let more = [
+    let of_truth = options.has_truth;
+    let (mut parts, mut shares) = (vec![texts], vec![1.5]);
+    if of_truth {
+        parts.push(plot(layout, "coverage", &["coverage"])?);
+        shares.push(1.0);
+    }
+    let mut more = vec![
         plot(layout, "open frontier, m²", &["frontier_open_m2"])?,
         plot(layout, "ignored frontier, m²", &["frontier_ignored_m2"])?,
         plot(layout, "faces of the map", &["map_faces"])?,
         plot(layout, "distance, m", &["distance_m"])?,
-        plot(layout, "odometry error, m", &["odometry_error_m"])?,
     ];
-    let more = layout.container(ContainerKind::Tabs, &more, &[])?;
-    let mut parts = vec![texts, coverage, more];
-    let mut shares = vec![1.5, 1.0, 1.0];
+    if of_truth {
+        more.push(plot(layout, "odometry error, m", &["odometry_error_m"])?);
+    }
+    parts.push(layout.container(ContainerKind::Tabs, &more, &[])?);
+    shares.push(1.0);
     if options.level == Level::Full {
         let contents = options.maps.iter().map(|map| format!("+ /{map}/events/**")).collect();
         let columns = [TextLogColumnKind::EntityPath, TextLogColumnKind::Body];

@@ -7,6 +7,7 @@
 //! |---|---|
 //! | `world`, `generators` | the place |
 //! | `camera`, `maps`, `planner` | the robot's eye, its maps, how it chooses; how belief is judged |
+//! | `replay` | how depth images of a log are taken |
 //! | `check` | rules between keys |
 //! | `to_params` | the same as the algorithms want it, in radians |
 
@@ -15,6 +16,7 @@ mod check;
 mod generators;
 mod maps;
 mod planner;
+mod replay;
 mod to_params;
 mod world;
 
@@ -23,4 +25,5 @@ pub(super) use check::{faults, is_only_of_the_plane};
 pub use generators::{Cave3dWorld, Office3dWorld, Pillars3dWorld, Rooms3dWorld};
 pub use maps::{GlobalUnionMap3d, Maps3d, RelativeMap3d, VoxelsMap3d};
 pub use planner::{Metrics3d, Planner3d};
+pub use replay::{Reduction, Replay3d};
 pub use world::{MeshWorld, World3d};
