@@ -31,12 +31,16 @@ pub(crate) fn send_replay(stream: &RecordingStream, options: &ReplayOptions) -> 
                 let shares = vec![1.0; rest.len()];
                 below.push(layout.container(ContainerKind::Horizontal, &rest, &shares)?);
             }
-            let below = layout.container(ContainerKind::Tabs, &below, &[])?;
+            // One row needs no tabs.
+            let below = match <[Written; 1]>::try_from(below) {
+                Ok([only]) => only,
+                Err(below) => layout.container(ContainerKind::Tabs, &below, &[])?,
+            };
             layout.container(ContainerKind::Vertical, &[pictures, below], &[1.2, 1.0])?
         };
         let side = side(layout, options)?;
         layout.container(ContainerKind::Horizontal, &[left, side], &[3.0, 1.35])?;
-        layout.finish("step", 8.0, false)
+        layout.finish("step", 8.0, true)
     })
 }
 
