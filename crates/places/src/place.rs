@@ -1,8 +1,5 @@
 //! What is known around a keyframe: its scan, and those taken just before and after it.
 
-use std::collections::BTreeSet;
-
-use geometry::Point2;
 use pose::Se2;
 
 use crate::matching::{Surfaces, Table};
@@ -56,7 +53,7 @@ impl Place {
 
     /// Its surfaces, sorted for looking up what is nearest.
     pub fn surfaces(&self) -> Surfaces {
-        Surfaces::new(&self.points, 0.5)
+        Surfaces::new(&self.points, 0.2)
     }
 
     /// Its table of scores.
@@ -73,11 +70,17 @@ impl Place {
 /// One point for each cell of a grid that has any, the first; and of these every so many-th, so that no
 /// more than `most` are left.
 pub fn thinned(points: &[SurfacePoint], cell_m: f64, most: usize) -> Vec<SurfacePoint> {
-    let mut taken = BTreeSet::new();
-    let cell =
-        |point: &Point2| ((point.x / cell_m).floor() as i64, (point.y / cell_m).floor() as i64);
-    let kept: Vec<SurfacePoint> =
-        points.iter().filter(|point| taken.insert(cell(&point.point))).copied().collect();
+    let cell = |metres: f64| (metres / cell_m).floor() as i64;
+    let mut by_cell: Vec<(i64, i64, usize)> = points
+        .iter()
+        .enumerate()
+        .map(|(i, point)| (cell(point.point.x), cell(point.point.y), i))
+        .collect();
+    by_cell.sort_unstable();
+    by_cell.dedup_by_key(|(x, y, _)| (*x, *y));
+    let mut first: Vec<usize> = by_cell.into_iter().map(|(_, _, i)| i).collect();
+    first.sort_unstable();
+    let kept: Vec<SurfacePoint> = first.into_iter().map(|i| points[i]).collect();
     if kept.len() <= most || most == 0 {
         return kept;
     }

@@ -1,12 +1,13 @@
-//! The best pose of a window, by scores at two resolutions (Olson 2009).
+//! The best pose of a window, by scores at several resolutions (Olson 2009).
 
+use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use geometry::Point2;
 use pose::Se2;
 
 use super::Table;
-use super::table::BLOCK;
+use super::table::Pyramid;
 
 /// Where a search looks.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -33,12 +34,13 @@ pub struct Found {
     pub elsewhere: f64,
 }
 
-/// A block of translations at one heading, with the best that it can hold.
+/// A block of 2^level translations along each axis at one heading, with the best that it can hold.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 struct Block {
     bound: u32,
     // Ties go to the middle of the window, so that the answer depends on no order of visits.
-    from_middle: std::cmp::Reverse<u64>,
+    from_middle: Reverse<u64>,
+    level: Reverse<u8>,
     heading: i32,
     column: i32,
     row: i32,
@@ -55,86 +57,164 @@ pub struct Apart {
     pub share: f64,
 }
 
-/// Blocks that are opened, at most: what is left is bounded by their order.
-const OPENED: usize = 3000;
+/// Blocks that are bounded, at most: a search that has looked at so many takes the best that it knows.
+const LOOKS: usize = 30_000;
+
+/// The widest block has 2^this translations along each axis.
+const WIDEST: usize = 4;
 
 /// The best pose of a window for points, and the best score of a pose elsewhere.
 ///
-/// Exact over the window's grid of poses: translations by cells of the table, headings by the step.
-/// `None` where there is no point. Cost: a lookup per point for every block of 4 x 4 translations and
-/// every heading, and 16 more for each block whose bound reaches the share of the best.
+/// Exact over the window's grid of poses: translations by cells of the table, headings by the step. Blocks
+/// of translations are opened in the order of their bounds, so that single poses come up by falling score.
+/// `None` where there is no point. Cost: a lookup per point for every block that is bounded.
 pub fn search(table: &Table, points: &[Point2], window: &Window, apart: &Apart) -> Option<Found> {
     if points.is_empty() {
         return None;
     }
-    let cells = (window.reach_m / table.cell_m()).ceil() as i32;
-    let blocks = (2 * cells + 1).div_euclid(BLOCK as i32) + 1;
-    let turns = (window.reach_rad / window.angle_step_rad).ceil() as i32;
-    let first = -(blocks * BLOCK as i32) / 2;
+    let mut looking = Looking::new(table, points, window);
+    let best = looking.best()?;
+    let pose = looking.pose(&best);
+    let most = 255.0 * points.len() as f64;
+    let elsewhere = looking.elsewhere(&best, apart);
+    Some(Found {
+        place_from_scan: pose,
+        score: f64::from(best.bound) / most,
+        elsewhere: f64::from(elsewhere) / most,
+    })
+}
 
-    let mut turned: Vec<Vec<(isize, isize)>> = Vec::with_capacity(2 * turns as usize + 1);
-    let mut heap = BinaryHeap::new();
-    for turn in -turns..=turns {
-        let pose = at(window, turn, 0, 0, table.cell_m());
-        let at_cells: Vec<(isize, isize)> =
-            points.iter().map(|point| table.cell(&pose.transform(point))).collect();
-        for by in 0..blocks {
-            for bx in 0..blocks {
-                let (column, row) = (first + bx * BLOCK as i32, first + by * BLOCK as i32);
-                let bound: u32 = at_cells
-                    .iter()
-                    .map(|&(x, y)| table.bound_at(x + column as isize, y + row as isize))
-                    .sum();
-                let off = (i64::from(column) + 2).pow(2) + (i64::from(row) + 2).pow(2);
-                let from_middle = std::cmp::Reverse(off as u64 + u64::from(turn.unsigned_abs()));
-                heap.push(Block { bound, from_middle, heading: turn, column, row });
-            }
-        }
-        turned.push(at_cells);
-    }
+/// A search under way.
+struct Looking<'a> {
+    window: &'a Window,
+    cell_m: f64,
+    /// Translations to either side, in cells; headings to either side, in steps.
+    cells: i32,
+    turns: i32,
+    pyramid: Pyramid,
+    /// By heading: where the pyramid holds each point.
+    turned: Vec<Vec<usize>>,
+    heap: BinaryHeap<Block>,
+    looks: usize,
+}
 
-    let mut best: Option<(u32, Se2)> = None;
-    let mut peaks: Vec<(u32, Se2)> = Vec::new();
-    let mut opened = 0;
-    while let Some(block) = heap.pop() {
-        let enough = best.map_or(0.0, |(score, _)| apart.share * f64::from(score));
-        if best.is_some() && (f64::from(block.bound) < enough || opened >= OPENED) {
-            break;
-        }
-        opened += 1;
-        let at_cells = &turned[(block.heading + turns) as usize];
-        let mut top: Option<(u32, i32, i32)> = None;
-        for row in block.row..block.row + BLOCK as i32 {
-            for column in block.column..block.column + BLOCK as i32 {
-                let score: u32 = at_cells
-                    .iter()
-                    .map(|&(x, y)| table.score(x + column as isize, y + row as isize))
-                    .sum();
-                if top.is_none_or(|(least, _, _)| score > least) {
-                    top = Some((score, column, row));
+impl<'a> Looking<'a> {
+    fn new(table: &Table, points: &[Point2], window: &'a Window) -> Self {
+        let cell_m = table.cell_m();
+        let cells = (window.reach_m / cell_m).ceil() as i32;
+        let turns = (window.reach_rad / window.angle_step_rad).ceil() as i32;
+        let top = (cells.max(1).ilog2() as usize).min(WIDEST);
+        let mut looking = Self {
+            window,
+            cell_m,
+            cells,
+            turns,
+            pyramid: Pyramid::over(table, top, cells as usize),
+            turned: Vec::with_capacity(2 * turns as usize + 1),
+            heap: BinaryHeap::new(),
+            looks: 0,
+        };
+        for turn in -turns..=turns {
+            let pose = at(window, turn, 0, 0, cell_m);
+            let cells_of = points.iter().map(|point| table.cell(&pose.transform(point)));
+            let bases = cells_of.filter_map(|cell| looking.pyramid.base(cell)).collect();
+            looking.turned.push(bases);
+            for row in (-cells..=cells).step_by(1 << top) {
+                for column in (-cells..=cells).step_by(1 << top) {
+                    let block = looking.bounded(top, turn, column, row);
+                    looking.heap.push(block);
                 }
             }
         }
-        if let Some((score, column, row)) = top {
-            let pose = at(window, block.heading, column, row, table.cell_m());
-            if best.is_none_or(|(least, _)| score > least) {
-                best = Some((score, pose));
-            }
-            peaks.push((score, pose));
-        }
+        looking
     }
-    let (score, pose) = best?;
-    let most = 255.0 * points.len() as f64;
-    let is_other = |other: &Se2| {
-        let between = pose.inverse_mul(other);
-        between.distance() > apart.metres || between.angle().abs() > apart.radians
-    };
-    let elsewhere = peaks.iter().filter(|(_, other)| is_other(other)).map(|peak| peak.0).max();
-    Some(Found {
-        place_from_scan: pose,
-        score: f64::from(score) / most,
-        elsewhere: f64::from(elsewhere.unwrap_or(0)) / most,
-    })
+
+    fn bounded(&mut self, level: usize, heading: i32, column: i32, row: i32) -> Block {
+        self.looks += 1;
+        let bases = &self.turned[(heading + self.turns) as usize];
+        let bound = self.pyramid.bound(level, bases, column, row);
+        // Twice the distance of the block's middle, which falls between cells.
+        let middle = |first: i32| i64::from(2 * first + (1 << level) - 1);
+        let off = middle(column).pow(2) + middle(row).pow(2);
+        let from_middle = Reverse(off as u64 + 4 * u64::from(heading.unsigned_abs()));
+        Block { bound, from_middle, level: Reverse(level as u8), heading, column, row }
+    }
+
+    /// The four parts of a block, those within the window.
+    fn parts(&mut self, block: &Block) -> impl Iterator<Item = Block> + use<> {
+        let level = usize::from(block.level.0) - 1;
+        let half = 1 << level;
+        let mut parts = [None; 4];
+        let corners = [(0, 0), (half, 0), (0, half), (half, half)];
+        for (part, (right, up)) in parts.iter_mut().zip(corners) {
+            let (column, row) = (block.column + right, block.row + up);
+            if column <= self.cells && row <= self.cells {
+                *part = Some(self.bounded(level, block.heading, column, row));
+            }
+        }
+        parts.into_iter().flatten()
+    }
+
+    /// The best single pose.
+    fn best(&mut self) -> Option<Block> {
+        while let Some(block) = self.heap.pop() {
+            if block.level.0 == 0 {
+                return Some(block);
+            }
+            let parts = self.parts(&block);
+            if self.looks >= LOOKS {
+                return parts.max().and_then(|part| self.down(part));
+            }
+            self.heap.extend(parts);
+        }
+        None
+    }
+
+    /// From a block the way of the best part to a single pose.
+    fn down(&mut self, mut block: Block) -> Option<Block> {
+        while block.level.0 > 0 {
+            block = self.parts(&block).max()?;
+        }
+        Some(block)
+    }
+
+    /// The best score of a pose that is another than the best one; 0 where none has more than the share
+    /// that counts.
+    fn elsewhere(&mut self, best: &Block, apart: &Apart) -> u32 {
+        if apart.share >= 1.0 {
+            return 0;
+        }
+        let enough = apart.share * f64::from(best.bound);
+        while let Some(block) = self.heap.pop() {
+            if f64::from(block.bound) < enough {
+                break;
+            }
+            if self.is_near(&block, best, apart) {
+                continue;
+            }
+            // What could not be looked at may be as good as its bound.
+            if block.level.0 == 0 || self.looks >= LOOKS {
+                return block.bound;
+            }
+            let parts = self.parts(&block);
+            self.heap.extend(parts.filter(|part| f64::from(part.bound) >= enough));
+        }
+        0
+    }
+
+    /// Whether all poses of a block are the same one as the best.
+    fn is_near(&self, block: &Block, best: &Block, apart: &Apart) -> bool {
+        let turn = f64::from(block.heading - best.heading) * self.window.angle_step_rad;
+        let last = (1 << block.level.0) - 1;
+        let farthest =
+            |first: i32, of: i32| f64::from((first - of).abs().max((first + last - of).abs()));
+        let off = farthest(block.column, best.column).hypot(farthest(block.row, best.row));
+        turn.abs() <= apart.radians && off * self.cell_m <= apart.metres
+    }
+
+    fn pose(&self, block: &Block) -> Se2 {
+        at(self.window, block.heading, block.column, block.row, self.cell_m)
+    }
 }
 
 /// The pose of a window's grid: headings turn the scan about its own origin.

@@ -20,7 +20,7 @@ pub struct Surfaces {
 const MOST: usize = 1024;
 
 impl Surfaces {
-    /// Sorts points into cells of a size, metres: the farthest that is looked for.
+    /// Sorts points into cells of a size, metres.
     pub fn new(points: &[SurfacePoint], cell_m: f64) -> Self {
         let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
         for SurfacePoint { point, .. } in points {
@@ -56,28 +56,39 @@ impl Surfaces {
         Self { cell_m, origin, columns, rows, starts, points: sorted }
     }
 
-    /// The nearest of the points within `within_m`, which is at most the size of a cell.
+    /// The nearest of the points within `within_m`: in the cells around the point's own where those can
+    /// tell, else as far as is asked.
     pub fn nearest(&self, point: &Point2, within_m: f64) -> Option<&SurfacePoint> {
+        let far = (within_m / self.cell_m).ceil() as isize;
+        let (squared, nearest) = self.nearest_in(point, 1);
+        if far <= 1 || squared <= self.cell_m * self.cell_m {
+            return nearest.filter(|_| squared <= within_m * within_m);
+        }
+        let (squared, nearest) = self.nearest_in(point, far);
+        nearest.filter(|_| squared <= within_m * within_m)
+    }
+
+    /// The nearest point of the cells up to `reach` cells from that of a point, and its squared distance.
+    fn nearest_in(&self, point: &Point2, reach: isize) -> (f64, Option<&SurfacePoint>) {
         let offset = (point - self.origin) / self.cell_m;
         let (x, y) = (offset.x.floor() as isize, offset.y.floor() as isize);
-        let mut best: Option<(f64, &SurfacePoint)> = None;
-        for row in (y - 1).max(0)..=(y + 1).min(self.rows as isize - 1) {
-            let low = (x - 1).max(0);
-            let high = (x + 1).min(self.columns as isize - 1);
-            if low > high {
-                continue;
-            }
+        let mut best: (f64, Option<&SurfacePoint>) = (f64::INFINITY, None);
+        let (low, high) = ((x - reach).max(0), (x + reach).min(self.columns as isize - 1));
+        if low > high {
+            return best;
+        }
+        for row in (y - reach).max(0)..=(y + reach).min(self.rows as isize - 1) {
             let base = row as usize * self.columns;
             let from = self.starts[base + low as usize] as usize;
             let to = self.starts[base + high as usize + 1] as usize;
             for candidate in &self.points[from..to] {
                 let squared = (candidate.point - point).norm_squared();
-                if best.is_none_or(|(least, _)| squared < least) {
-                    best = Some((squared, candidate));
+                if squared < best.0 {
+                    best = (squared, Some(candidate));
                 }
             }
         }
-        best.filter(|(squared, _)| *squared <= within_m * within_m).map(|(_, point)| point)
+        best
     }
 
     /// All points.

@@ -5,11 +5,7 @@ use geometry::Point2;
 /// Cells from a point's own over which its score falls.
 const REACH: isize = 2;
 
-/// Cells of a block of translations that are bounded together.
-pub(super) const BLOCK: usize = 4;
-
-/// Scores from 0 to 255 over a grid, and over blocks of it the best that any translation within a block
-/// can give.
+/// Scores from 0 to 255 over a grid.
 #[derive(Clone, Debug)]
 pub struct Table {
     cell_m: f64,
@@ -17,9 +13,6 @@ pub struct Table {
     columns: usize,
     rows: usize,
     scores: Vec<u8>,
-    block_columns: usize,
-    block_rows: usize,
-    blocks: Vec<u8>,
 }
 
 /// Cells along one side, at most: a place is some ten metres wide.
@@ -38,8 +31,7 @@ impl Table {
         }
         let margin = (REACH + 1) as f64 * cell_m;
         let cells = |low: f64, high: f64| {
-            let count = (((high - low + 2.0 * margin) / cell_m).ceil() as usize + 1).min(MOST);
-            count.div_ceil(BLOCK) * BLOCK
+            (((high - low + 2.0 * margin) / cell_m).ceil() as usize + 1).min(MOST)
         };
         let (columns, rows) = (cells(low[0], high[0]), cells(low[1], high[1]));
         let mut table = Self {
@@ -48,9 +40,6 @@ impl Table {
             columns,
             rows,
             scores: vec![0; columns * rows],
-            block_columns: columns / BLOCK + 1,
-            block_rows: rows / BLOCK + 1,
-            blocks: Vec::new(),
         };
         let fall: Vec<u8> = (-REACH..=REACH)
             .flat_map(|y| (-REACH..=REACH).map(move |x| (x * x + y * y) as f64))
@@ -59,7 +48,6 @@ impl Table {
         for point in points {
             table.spread(&point, &fall);
         }
-        table.bound();
         table
     }
 
@@ -80,34 +68,6 @@ impl Table {
         }
     }
 
-    /// A block's bound covers its own cells and those of the next block in either direction: where a
-    /// point gets to by a translation of less than a block.
-    fn bound(&mut self) {
-        let mut own = vec![0_u8; self.block_columns * self.block_rows];
-        for row in 0..self.rows {
-            for column in 0..self.columns {
-                let at = row / BLOCK * self.block_columns + column / BLOCK;
-                own[at] = own[at].max(self.scores[row * self.columns + column]);
-            }
-        }
-        // One row and column more on the low side: points that a translation brings in.
-        let (columns, rows) = (self.block_columns + 1, self.block_rows + 1);
-        let get = |column: isize, row: isize| {
-            let inside = (0..self.block_columns as isize).contains(&column)
-                && (0..self.block_rows as isize).contains(&row);
-            if inside { own[row as usize * self.block_columns + column as usize] } else { 0 }
-        };
-        let mut blocks = vec![0_u8; columns * rows];
-        for row in 0..rows as isize {
-            for column in 0..columns as isize {
-                let (x, y) = (column - 1, row - 1);
-                let best = get(x, y).max(get(x + 1, y)).max(get(x, y + 1)).max(get(x + 1, y + 1));
-                blocks[row as usize * columns + column as usize] = best;
-            }
-        }
-        (self.block_columns, self.block_rows, self.blocks) = (columns, rows, blocks);
-    }
-
     /// Side of a cell, metres.
     pub fn cell_m(&self) -> f64 {
         self.cell_m
@@ -122,28 +82,79 @@ impl Table {
     /// Score of a point, from 0 to 255; 0 far from anything known.
     pub fn score_at(&self, point: &Point2) -> u32 {
         let (column, row) = self.cell(point);
-        self.score(column, row)
-    }
-
-    /// Score of a cell; 0 outside.
-    #[inline]
-    pub(super) fn score(&self, column: isize, row: isize) -> u32 {
         if (column as usize) < self.columns && (row as usize) < self.rows {
             u32::from(self.scores[row as usize * self.columns + column as usize])
         } else {
             0
         }
     }
+}
 
-    /// The best score of a cell moved by 0 to [`BLOCK`] - 1 cells up and to the right.
-    #[inline]
-    pub(super) fn bound_at(&self, column: isize, row: isize) -> u32 {
-        let block = BLOCK as isize;
-        let (x, y) = (column.div_euclid(block) + 1, row.div_euclid(block) + 1);
-        if (x as usize) < self.block_columns && (y as usize) < self.block_rows {
-            u32::from(self.blocks[y as usize * self.block_columns + x as usize])
-        } else {
-            0
+/// The best scores over blocks of 1, 2, 4, .. cells along each side, from every cell to the right and up.
+///
+/// Wide margins of nothing, so that no translation of a window leads a point that matters out of it.
+pub(super) struct Pyramid {
+    /// Cells of margin to every side.
+    margin: usize,
+    /// Cells that a point is moved by, at most, and those of the widest block.
+    reach: isize,
+    inner: [isize; 2],
+    columns: usize,
+    /// By level: the best score of the block of 2^level cells that starts at a cell.
+    levels: Vec<Vec<u8>>,
+}
+
+impl Pyramid {
+    /// The pyramid up to a level, for translations of at most so many cells to either side.
+    ///
+    /// Cost: one pass over the cells and their margins for each level.
+    pub fn over(table: &Table, top: usize, translations: usize) -> Self {
+        let margin = 2 * translations + (1 << top);
+        let (columns, rows) = (table.columns + 2 * margin, table.rows + 2 * margin);
+        let mut scores = vec![0_u8; columns * rows];
+        for row in 0..table.rows {
+            let from = &table.scores[row * table.columns..(row + 1) * table.columns];
+            let start = (row + margin) * columns + margin;
+            scores[start..start + table.columns].copy_from_slice(from);
+        }
+        let mut levels = vec![scores];
+        for level in 0..top {
+            // Past the end of a row comes the margin of the next, in which no block reaches anything yet.
+            levels.push(widened(&levels[level], 1 << level, columns << level));
+        }
+        Self {
+            margin,
+            reach: (translations + (1 << top)) as isize,
+            inner: [table.columns as isize, table.rows as isize],
+            columns,
+            levels,
         }
     }
+
+    /// Where a cell of the table is found; `None` if no translation leads it to anything.
+    pub fn base(&self, (x, y): (isize, isize)) -> Option<usize> {
+        let matters = |at: isize, count: isize| at >= -self.reach && at < count + self.reach;
+        (matters(x, self.inner[0]) && matters(y, self.inner[1])).then(|| {
+            let (column, row) = (x + self.margin as isize, y + self.margin as isize);
+            row as usize * self.columns + column as usize
+        })
+    }
+
+    /// The sum over points of the best score that a translation by `column` and `row` cells, and by less
+    /// than 2^level cells more along each axis, gives each of them.
+    pub fn bound(&self, level: usize, bases: &[usize], column: i32, row: i32) -> u32 {
+        let offset = row as isize * self.columns as isize + column as isize;
+        let scores = &self.levels[level];
+        bases.iter().map(|base| u32::from(scores[base.wrapping_add_signed(offset)])).sum()
+    }
+}
+
+/// The greatest of each, of what stands `along` after it, `across` after it, and both.
+fn widened(all: &[u8], along: usize, across: usize) -> Vec<u8> {
+    let after = |shift: usize| &all[shift.min(all.len())..];
+    let mut widened = all.to_vec();
+    for shift in [along, across, along + across] {
+        widened.iter_mut().zip(after(shift)).for_each(|(one, other)| *one = (*one).max(*other));
+    }
+    widened
 }

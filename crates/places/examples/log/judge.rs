@@ -1,28 +1,17 @@
-//! What place recognition makes of a raw log, held against published relations and corrected poses.
-//!
-//! ```text
-//! cargo run --release -p places --example intel -- [LOG] [CORRECTED|-] [RELATIONS|-]
-//! ```
-#![expect(clippy::print_stdout, reason = "a program")]
+//! A recogniser's results against corrected poses and published relations.
 
-use std::path::PathBuf;
-use std::time::Instant;
-
-use formats::laser::{LoggedScan, read, relations};
-use places::{Driven, PlaceParams, Recognizer, Verdict};
+use formats::laser::LoggedScan;
+use formats::laser::relations::Relation;
+use places::{PlaceParams, Recognizer, Settled};
 use pose::Se2;
 
-fn data(name: &str) -> PathBuf {
-    let named = std::env::var_os("DRIFTLAB_DATA").map(PathBuf::from);
-    let beside = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../../shared/data");
-    named.unwrap_or(beside).join("laser").join(name)
-}
+use crate::clock::quantile;
 
-fn quantile(values: &[f64], q: f64) -> f64 {
-    let mut sorted = values.to_vec();
-    sorted.sort_by(f64::total_cmp);
-    let last = sorted.len().saturating_sub(1);
-    sorted.get((q * last as f64).round() as usize).copied().unwrap_or(f64::NAN)
+/// What is judged, and the scans that were kept.
+pub struct Judged<'a> {
+    pub params: &'a PlaceParams,
+    pub recognizer: &'a Recognizer,
+    pub kept: &'a [&'a LoggedScan],
 }
 
 /// The pose at a time, between keyframes by the twist from one to the next.
@@ -34,74 +23,19 @@ fn pose_at(stamps: &[f64], poses: &[Se2], secs: f64) -> Se2 {
     poses[next - 1].boxplus(&(step * share.clamp(0.0, 1.0)))
 }
 
-fn main() -> Result<(), Box<dyn std::error::Error>> {
-    let mut arguments = std::env::args().skip(1);
-    let mut file = |default: &str| match arguments.next() {
-        Some(name) if name == "-" => None,
-        Some(name) => Some(PathBuf::from(name)),
-        None => Some(data(default)),
-    };
-    let log = file("intel_gfs.json.gz").ok_or("a log")?;
-    let corrected = file("intel_corrected.json.gz");
-    let relations_file = file("intel.relations");
-    let scans = read(&std::fs::read(log)?)?.scans;
-
-    let params = PlaceParams::default();
-    let mut recognizer = Recognizer::new(params);
-    let (mut millis, mut stamps, mut raw) = (Vec::new(), Vec::new(), Vec::new());
-    let mut driven = Driven::default();
-    let mut last: Option<&LoggedScan> = None;
-    let (mut proposed, mut gated) = (0, 0);
-    for scan in &scans {
-        if let Some(last) = last {
-            let step = last.odom_from_sensor.inverse_mul(&scan.odom_from_sensor);
-            driven.last_from_new = driven.last_from_new * step;
-            driven.distance_m += step.distance();
-            driven.turned_rad += step.angle().abs();
-        }
-        let first = last.is_none();
-        last = Some(scan);
-        if !first && !params.keyframes.is_due(&driven.last_from_new) {
-            continue;
-        }
-        let start = Instant::now();
-        let added = recognizer.add(scan.scan.clone(), &driven);
-        millis.push(start.elapsed().as_secs_f64() * 1e3);
-        proposed += added.proposed;
-        gated += added.gated;
-        stamps.push(scan.stamp_secs);
-        raw.push(scan.odom_from_sensor);
-        driven = Driven::default();
+impl Judged<'_> {
+    fn stamps(&self) -> Vec<f64> {
+        self.kept.iter().map(|scan| scan.stamp_secs).collect()
     }
-    let start = Instant::now();
-    let settled = recognizer.settled();
-    let settle_secs = start.elapsed().as_secs_f64();
-    println!(
-        "scans {}, keyframes {}, driven {:.0} m, gated {gated}, proposed {proposed}, accepted {}, rejected at the end {}",
-        scans.len(),
-        stamps.len(),
-        recognizer.keyframes().last().map_or(0.0, |k| k.travelled_m),
-        recognizer.closures().len(),
-        settled.rejected.len()
-    );
-    for (verdict, count) in Verdict::ALL.iter().zip(recognizer.tally().verdicts) {
-        print!("{} {count}, ", verdict.name());
-    }
-    println!("untracked {}", recognizer.tally().untracked);
-    let tenth = (millis.len() / 10).max(1);
-    println!(
-        "millis per keyframe: median {:.2}, p99 {:.2}, most {:.2}; first tenth {:.2}, last {:.2}; settling {settle_secs:.2} s; {} bytes per keyframe",
-        quantile(&millis, 0.5),
-        quantile(&millis, 0.99),
-        quantile(&millis, 1.0),
-        quantile(&millis[..tenth], 0.5),
-        quantile(&millis[millis.len() - tenth..], 0.5),
-        recognizer.bytes() / stamps.len().max(1),
-    );
 
-    let chained = recognizer.chained();
-    if let Some(file) = corrected {
-        let truth = read(&std::fs::read(file)?)?.scans;
+    fn raw(&self) -> Vec<Se2> {
+        self.kept.iter().map(|scan| scan.odom_from_sensor).collect()
+    }
+
+    /// Steps, closures and revisits by corrected poses.
+    pub fn against_poses(&self, truth: &[LoggedScan]) {
+        let (params, recognizer) = (self.params, self.recognizer);
+        let (stamps, raw, chained) = (self.stamps(), self.raw(), recognizer.chained());
         let true_stamps: Vec<f64> = truth.iter().map(|scan| scan.stamp_secs).collect();
         let true_poses: Vec<Se2> = truth.iter().map(|scan| scan.odom_from_sensor).collect();
         let truth: Vec<Se2> =
@@ -164,8 +98,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             println!("revisits within {within_m} m, {turned} deg: {revisits}, found {found}");
         }
     }
-    if let Some(file) = relations_file {
-        let relations = relations::read(&std::fs::read(file)?)?;
+
+    /// Mean absolute errors of relative poses.
+    pub fn against_relations(&self, relations: &[Relation], settled: &Settled) {
+        let (stamps, raw, chained) = (self.stamps(), self.raw(), self.recognizer.chained());
         let nearest = |secs: f64| {
             let next = stamps.partition_point(|stamp| *stamp <= secs);
             let all = [next.saturating_sub(1), next.min(stamps.len() - 1)];
@@ -175,15 +111,18 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         for (name, poses) in
             [("odometry", &raw), ("tracked", &chained), ("settled", &settled.map_from_keyframe)]
         {
-            for which in ["within 50 ms", "of two scans", "within 2 ms", "others"] {
+            for which in
+                ["within 50 ms", "of two scans", "within 2 ms", "of their stamps", "others"]
+            {
                 let (mut metres, mut degrees) = (Vec::new(), Vec::new());
-                for relation in &relations {
+                for relation in relations {
                     let (a, b) = (nearest(relation.from_secs), nearest(relation.to_secs));
                     let near = a.1.max(b.1) <= 0.05;
                     let counts = match which {
                         "within 50 ms" => near,
                         "of two scans" => near && a.0 != b.0,
                         "within 2 ms" => a.1.max(b.1) <= 0.002 && a.0 != b.0,
+                        "of their stamps" => a.1.max(b.1) <= 0.0005 && a.0 != b.0,
                         _ => !near,
                     };
                     if !counts {
@@ -207,5 +146,4 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             }
         }
     }
-    Ok(())
 }
