@@ -14,6 +14,8 @@ pub(crate) struct Table {
     /// For each triangle of ring vertices, 0 where it was not looked at, 1 where it makes no positive
     /// tetrahedra, else 2 and how many of its two tetrahedra are flat.
     spans: Vec<u8>,
+    /// The same for the corners that can be cut off.
+    ears: Vec<u8>,
     /// For each two ring vertices what the best triangulation between them costs, and the vertex at its
     /// edge.
     cost: Vec<(i32, u32)>,
@@ -91,22 +93,19 @@ impl Around<'_> {
     /// Whether some triangulation of the ring makes good tetrahedra only; fills in `spans`.
     fn is_fertile(&self, table: &mut Table) -> bool {
         let n = self.ring.len();
+        // Of two ears that have no edge in common one is among these.
+        table.ears.clear();
+        table.ears.extend((0..n - 2).map(|i| self.spans([i, i + 1, i + 2])));
+        if table.ears.iter().all(|&ear| ear == NO) {
+            return false;
+        }
         table.spans.clear();
         table.spans.resize(n * n * n, 0);
+        for (i, &ear) in table.ears.iter().enumerate() {
+            table.spans[(i * n + i + 1) * n + i + 2] = ear;
+        }
         if n == 3 {
-            let found = self.spans([0, 1, 2]);
-            table.spans[n + 2] = found;
-            return found != NO;
-        }
-        // Of two ears that have no edge in common one is among these.
-        let mut ears = 0;
-        for i in 0..n - 2 {
-            let found = self.spans([i, i + 1, i + 2]);
-            table.spans[(i * n + i + 1) * n + i + 2] = found;
-            ears += usize::from(found != NO);
-        }
-        if ears == 0 {
-            return false;
+            return true;
         }
         table.cost.clear();
         table.cost.resize(n * n, (NEVER, 0));

@@ -34,7 +34,15 @@ impl Work {
         while self.log.len() > mark {
             if let Some(exchange) = self.log.pop() {
                 self.mesh.undo(&exchange);
+                self.mesh.recycle(exchange);
             }
+        }
+    }
+
+    /// Forgets what could be undone.
+    pub(crate) fn settle(&mut self) {
+        while let Some(exchange) = self.log.pop() {
+            self.mesh.recycle(exchange);
         }
     }
 

@@ -1,5 +1,6 @@
 //! The tetrahedra, compactly.
 
+use super::replace::Exchange;
 use super::tet::{NONE, Tet};
 use crate::tetrahedra::predicates::{P3, orient};
 
@@ -20,6 +21,8 @@ pub(crate) struct Mesh {
     pub(crate) queue: Vec<u32>,
     /// Scratch of exchanges.
     pub(super) halves: Vec<u128>,
+    /// Buffers of exchanges that are done with.
+    pub(super) spare: Vec<Exchange>,
     /// The newest epoch.
     pub(crate) epoch: u32,
 }

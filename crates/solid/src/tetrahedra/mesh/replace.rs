@@ -87,26 +87,25 @@ impl Mesh {
             return None;
         }
 
-        let mut log = Exchange { slots_before: self.tets.len(), ..Exchange::default() };
+        let mut log = self.spare.pop().unwrap_or_default();
+        log.slots_before = self.tets.len();
         log.old.extend(old.iter().map(|&t| (t, *self.tet(t))));
-        let mut slots = Vec::with_capacity(new.len());
-        for i in 0..new.len() {
-            if let Some(&slot) = old.get(i) {
-                slots.push(slot);
-            } else {
-                let slot = self.take_slot();
-                if (slot as usize) < log.slots_before {
-                    log.taken.push(slot);
-                }
-                slots.push(slot);
-            }
-        }
         for &slot in old.iter().skip(new.len()) {
             self.tets[slot as usize] = Tet::FREE;
             self.free.push(slot);
             log.freed += 1;
         }
-        for (&slot, &v) in slots.iter().zip(new) {
+        for (i, &v) in new.iter().enumerate() {
+            let slot = match old.get(i) {
+                Some(&slot) => slot,
+                None => {
+                    let slot = self.take_slot();
+                    if (slot as usize) < log.slots_before {
+                        log.taken.push(slot);
+                    }
+                    slot
+                }
+            };
             self.tets[slot as usize].v = v;
             for vertex in v {
                 self.at[vertex as usize] = slot;
@@ -116,7 +115,7 @@ impl Mesh {
         let code_of = |half: Half| {
             let number = (half as u32) >> 1;
             if half & 1 == 1 {
-                4 * slots[(number >> 2) as usize] + (number & 3)
+                4 * log.new[(number >> 2) as usize].0 + (number & 3)
             } else {
                 outside[number as usize]
             }
@@ -126,6 +125,15 @@ impl Mesh {
         }
         self.queue = outside;
         Some(log)
+    }
+
+    /// Keeps the buffers of an exchange that is not to be taken back any more.
+    pub(crate) fn recycle(&mut self, mut log: Exchange) {
+        log.old.clear();
+        log.new.clear();
+        log.taken.clear();
+        log.freed = 0;
+        self.spare.push(log);
     }
 
     /// Takes an exchange back, bit for bit; exchanges are taken back in reverse order.

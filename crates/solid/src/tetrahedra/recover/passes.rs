@@ -14,6 +14,11 @@ const MOST_ROUNDS: usize = 60;
 const MOST_GROWTH: usize = 2;
 /// A sweep is repeated where it brought in more than one of so many.
 const WORTH_IT: usize = 8;
+/// A far search costs most where it finds nothing: it is repeated only where it brought in more than one
+/// of so few.
+const WORTH_IT_FAR: usize = 3;
+/// Searches from this depth on are far.
+const FAR: u32 = 2;
 
 /// How many places of a segment are tried for a detour.
 const MOST_TURNS: usize = 3;
@@ -90,13 +95,14 @@ fn pass(
     };
     plan.arrange(&mut missing);
     for &effort in plan.efforts {
+        let worth_it = if effort.depth < FAR { WORTH_IT } else { WORTH_IT_FAR };
         while !missing.is_empty() {
             let before = missing.len();
             work.sweep(kind, &mut missing, probe, |work, item| match item {
                 Item::Segment(a, b) => work.recover_segment(a, b, effort) == Attempt::Done,
                 Item::Facet(corners) => work.recover_facet(corners, effort) == Attempt::Done,
             });
-            if (before - missing.len()) * WORTH_IT < before {
+            if (before - missing.len()) * worth_it < before {
                 break;
             }
         }
@@ -220,5 +226,5 @@ pub(crate) fn commit(
             }
         }
     }
-    work.log.clear();
+    work.settle();
 }
