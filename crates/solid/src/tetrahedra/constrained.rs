@@ -7,7 +7,7 @@ use super::events::{Cause, TetrahedraEvent};
 use super::flips::Work;
 use super::gate::{Inside, Sound, admit};
 use super::mesh::NONE;
-use super::order::brio;
+use super::order::{Growth, brio};
 use super::recover::{PLANS, commit, conform};
 use super::result::{BoundaryFace, Tetrahedra};
 use crate::{Point3, Polyhedron, SolidError};
@@ -100,7 +100,7 @@ fn triangulate(
             [0, 1, 2].map(|k| if corner >> k & 1 == 0 { low[k] - extent } else { high[k] + extent })
         })
         .collect();
-    let order = brio(&sound.points);
+    let order = brio(&sound.points, Growth::Double);
     points.extend(order.iter().map(|&i| sound.points[i as usize]));
     let mut rank_of = vec![0; sound.points.len()];
     for (rank, &place) in order.iter().enumerate() {

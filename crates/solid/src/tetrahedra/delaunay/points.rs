@@ -5,7 +5,7 @@ use probe::{Off, Probe};
 use super::insert::delaunay_of;
 use crate::tetrahedra::events::TetrahedraEvent;
 use crate::tetrahedra::mesh::NONE;
-use crate::tetrahedra::order::brio;
+use crate::tetrahedra::order::{Growth, brio};
 use crate::tetrahedra::predicates::P3;
 use crate::{Point3, SolidError};
 
@@ -46,7 +46,7 @@ pub fn delaunay_with(
 ) -> Result<Delaunay, SolidError> {
     crate::tetrahedra::gate::check_points(points)?;
     let given: Vec<P3> = points.iter().map(|p| [p.x, p.y, p.z]).collect();
-    let order = brio(&given);
+    let order = brio(&given, Growth::Eightfold);
     let sorted = order.iter().map(|&i| given[i as usize]).collect();
     let (mesh, same) =
         delaunay_of(sorted, probe).ok_or(SolidError::Coplanar { points: points.len() })?;

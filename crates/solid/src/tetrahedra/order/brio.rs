@@ -5,22 +5,33 @@ use super::hilbert::Grid;
 /// The smallest first round.
 const FIRST_ROUND: usize = 64;
 
-/// The order in which to insert `points`: rounds of doubling size, each along a Hilbert curve.
+/// How much larger each round is than the one before it, about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Growth {
+    /// Twice.
+    Double = 1,
+    /// Eight times: of eight points seven come in one round, where they follow one another closely.
+    Eightfold = 3,
+}
+
+/// The order in which to insert `points`: growing rounds, each along a Hilbert curve.
 ///
 /// Which round a point falls into is decided by a fixed hash of its index, so that the same points
 /// give the same order. O(n log n).
-pub(crate) fn brio(points: &[[f64; 3]]) -> Vec<u32> {
+pub(crate) fn brio(points: &[[f64; 3]], growth: Growth) -> Vec<u32> {
+    let growth = growth as u32;
     let grid = Grid::new(points);
     let mut rounds = 0;
-    while (points.len() >> rounds) > FIRST_ROUND {
+    while (points.len() >> (growth * rounds)) > FIRST_ROUND {
         rounds += 1;
     }
     let mut keyed: Vec<(u64, u32)> = points
         .iter()
         .enumerate()
         .map(|(i, point)| {
-            // Half of all points fall into the last round, a quarter into the one before it, ...
-            let back = mix(i as u64).trailing_zeros().min(rounds);
+            // Half of all points, or seven eighths, fall into the last round, of the rest as many into the
+            // one before it, ...
+            let back = (mix(i as u64).trailing_zeros() / growth).min(rounds);
             let key = grid.key(point);
             let round = u64::from(rounds - back);
             // Two rounds run the curve in opposite ways, so that one begins where the last ended.

@@ -2,7 +2,7 @@
 //!
 //! | file | what it does |
 //! |---|---|
-//! | `brio.rs` | rounds of doubling size, each along the curve (\[ACR03\]) |
+//! | `brio.rs` | growing rounds, each along the curve (\[ACR03\]) |
 //! | `hilbert.rs` | the place of a point along a Hilbert curve (\[Ski04\]) |
 //!
 //! The rounds keep the expected cost of a random order, the curve makes each point lie near the one
@@ -11,4 +11,4 @@
 mod brio;
 mod hilbert;
 
-pub(crate) use brio::brio;
+pub(crate) use brio::{Growth, brio};

@@ -7,7 +7,7 @@ const PLAIN: Effort = Effort { depth: 0, ring: 16, tries: 0, flattest: FLAT };
 /// Flips after a flip that clears the way.
 const SHALLOW: Effort = Effort { depth: 1, ring: 24, tries: 20, flattest: FLAT };
 /// Two flips that clear the way, one for the other.
-const DEEP: Effort = Effort { depth: 2, ring: 24, tries: 100, flattest: FLAT };
+const DEEP: Effort = Effort { depth: 2, ring: 24, tries: 30, flattest: FLAT };
 /// As a last resort nearly flat tetrahedra may be made; a far search costs less than a division.
 pub(super) const ANYHOW: Effort = Effort { depth: 3, ring: 40, tries: 500, flattest: 0.0 };
 
