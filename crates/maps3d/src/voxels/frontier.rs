@@ -1,11 +1,11 @@
 //! Frontier: free cells beside cells that nobody looked into.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::{Point3, Vector3};
 
 use super::VoxelMap;
-use super::blocks::{BlockKey, Blocks, Cell, SIDE, cell_at, split};
+use super::blocks::{BlockKey, Blocks, CELLS, Cell, SIDE, cell_at, split};
 use super::map::CellsOf;
 use crate::{FrontierPatch, FrontierPoint, Hovering};
 
@@ -72,15 +72,60 @@ impl Frontier {
     }
 }
 
+/// Frontier cells that no part holds yet, one bit each.
+struct Left {
+    number_of: BTreeMap<BlockKey, usize>,
+    bits: Vec<[u64; CELLS / 64]>,
+    last: Option<(BlockKey, Option<usize>)>,
+}
+
+impl Left {
+    fn of(frontier: &Frontier) -> Self {
+        let mut left = Self { number_of: BTreeMap::new(), bits: Vec::new(), last: None };
+        for (key, places) in &frontier.cells {
+            let mut bits = [0; CELLS / 64];
+            for &place in places {
+                bits[usize::from(place) / 64] |= 1 << (place % 64);
+            }
+            left.number_of.insert(*key, left.bits.len());
+            left.bits.push(bits);
+        }
+        left
+    }
+
+    /// Takes a cell out; whether it was there.
+    fn take(&mut self, cell: Cell) -> bool {
+        let (key, place) = split(cell);
+        let number = match self.last {
+            Some((last, number)) if last == key => number,
+            _ => {
+                let number = self.number_of.get(&key).copied();
+                self.last = Some((key, number));
+                number
+            }
+        };
+        let Some(number) = number else { return false };
+        let word = &mut self.bits[number][place / 64];
+        let bit = 1 << (place % 64);
+        let was = *word & bit != 0;
+        *word &= !bit;
+        was
+    }
+}
+
 impl VoxelMap {
     /// Puts frontier together and measures it: cells that share a side, an edge or a corner hang together.
     pub(super) fn measure(&mut self) {
         let cell_m2 = self.params.cell_m * self.params.cell_m;
-        let mut left: BTreeSet<Cell> = self.frontier.all().collect();
+        let mut left = Left::of(&self.frontier);
+        let all: Vec<Cell> = self.frontier.all().collect();
         let mut tally = crate::MapTally::default();
         let mut patches: Vec<Opening> = Vec::new();
         let mut stack: Vec<Cell> = Vec::new();
-        while let Some(first) = left.pop_first() {
+        for first in all {
+            if !left.take(first) {
+                continue;
+            }
             let (mut part, mut given_up_m2) = (Vec::new(), 0.0);
             stack.push(first);
             while let Some(cell) = stack.pop() {
@@ -97,7 +142,7 @@ impl VoxelMap {
                 for by in 0..27 {
                     let by = [by % 3 - 1, by / 3 % 3 - 1, by / 9 - 1];
                     let next = beside(cell, by);
-                    if left.remove(&next) {
+                    if left.take(next) {
                         stack.push(next);
                     }
                 }
