@@ -1,8 +1,10 @@
-//! A walk of simulated frames of 640 x 480 pixels: time per frame from depth to updated map, and memory per
+//! A walk of simulated frames of 640 x 480 pixels: processor time per frame from depth to updated map, and memory per
 //! view, of the relative map beside the voxel map.
 //!
 //! `cargo bench -p maps3d --bench relative -- [FRAMES] [FOLDER]`; 60 frames where no number is given. With a
-//! folder the frames are written there, as `benches/peers/octomap_frames.py` reads them for OctoMap.
+//! folder the frames are written there, as `benches/peers/octomap_frames.py` reads them for OctoMap. With
+//! `read` for the number the frames of the folder are taken (`benches/peers/frames_of_folder.py` makes some of
+//! real depth images).
 
 #![allow(missing_docs, reason = "a program")]
 #![expect(clippy::print_stdout, reason = "a bench that prints its table")]
@@ -71,14 +73,59 @@ fn image(frame: usize) -> DepthImage {
     DepthImage::new(COLUMNS, camera, depths_m)
 }
 
-/// Writes a frame and its pose for a peer.
+/// Writes a frame, its pose and the camera for a peer.
 fn write(folder: &Path, frame: usize, image: &DepthImage) -> std::io::Result<()> {
+    let camera = image.camera;
+    let text = format!(
+        "{} {} {} {} {} {}\n",
+        image.columns,
+        image.rows(),
+        camera.fx,
+        camera.fy,
+        camera.cx,
+        camera.cy
+    );
+    std::fs::write(folder.join("camera"), text)?;
     let bytes: Vec<u8> = image.depths_m.iter().flat_map(|depth_m| depth_m.to_le_bytes()).collect();
     std::fs::write(folder.join(format!("{frame:04}.f32")), bytes)?;
     let pose = world_from_camera(frame);
     let (t, q) = (pose.translation, pose.rotation.coords);
     let text = format!("{} {} {} {} {} {} {}\n", t.x, t.y, t.z, q.x, q.y, q.z, q.w);
     std::fs::write(folder.join(format!("{frame:04}.pose")), text)
+}
+
+/// The numbers of a text.
+fn numbers(path: &Path) -> std::io::Result<Vec<f64>> {
+    let text = std::fs::read_to_string(path)?;
+    Ok(text.split_whitespace().filter_map(|word| word.parse().ok()).collect())
+}
+
+/// The frames of a folder and their poses, in order.
+fn read(folder: &Path) -> std::io::Result<Vec<(Se3, DepthImage)>> {
+    let camera = numbers(&folder.join("camera"))?;
+    let mut paths: Vec<_> =
+        std::fs::read_dir(folder)?.filter_map(|entry| Some(entry.ok()?.path())).collect();
+    paths.retain(|path| path.extension().is_some_and(|extension| extension == "f32"));
+    paths.sort();
+    let mut frames = Vec::new();
+    for path in paths {
+        let bytes = std::fs::read(&path)?;
+        let depths = bytes.as_chunks::<4>().0.iter().map(|&four| f32::from_le_bytes(four));
+        let pinhole = Camera::new(camera[2], camera[3], camera[4], camera[5]);
+        let image = DepthImage::new(camera[0] as usize, pinhole, depths.collect());
+        let p = numbers(&path.with_extension("pose"))?;
+        let turn =
+            UnitQuaternion::from_quaternion(nalgebra::Quaternion::new(p[6], p[3], p[4], p[5]));
+        frames.push((Se3::new(Vector3::new(p[0], p[1], p[2]), turn), image));
+    }
+    Ok(frames)
+}
+
+/// Processor time of this thread so far, milliseconds; wall time where the system does not tell it.
+fn cpu_ms(started: &Instant) -> f64 {
+    let told = std::fs::read_to_string("/proc/thread-self/schedstat").ok();
+    let nanos = told.and_then(|text| text.split_whitespace().next()?.parse::<f64>().ok());
+    nanos.map_or_else(|| 1e3 * started.elapsed().as_secs_f64(), |nanos| nanos * 1e-6)
 }
 
 fn median(times: &[f64]) -> f64 {
@@ -89,32 +136,46 @@ fn median(times: &[f64]) -> f64 {
 
 fn main() {
     let args: Vec<String> = std::env::args().skip(1).filter(|arg| !arg.starts_with("--")).collect();
-    let frames: usize = args.first().and_then(|arg| arg.parse().ok()).unwrap_or(60);
-    let folder = args.get(1).map(Path::new);
+    let mut folder = args.get(1).map(Path::new);
+    let taken = match (args.first(), folder) {
+        (Some(word), Some(from)) if word == "read" => {
+            folder = None;
+            Some(read(from).expect("frames"))
+        }
+        _ => None,
+    };
+    let asked = args.first().and_then(|arg| arg.parse().ok()).unwrap_or(60);
+    let frames: usize = taken.as_ref().map_or(asked, Vec::len);
     let voxels_too = frames <= 100;
     let mut relative = RelativeMap::new(RelativeParams::default()).expect("defaults");
     let mut voxels = VoxelMap::new(VoxelParams::default()).expect("defaults");
     let mut graph: PoseGraph<Se3> = PoseGraph::new();
+    let started = Instant::now();
     let mut times: [Vec<f64>; 2] = [Vec::new(), Vec::new()];
+    let mut before = Se3::identity();
     for frame in 0..frames {
-        let image = image(frame);
+        let (pose, image) = match &taken {
+            Some(taken) => taken[frame].clone(),
+            None => (world_from_camera(frame), image(frame)),
+        };
         if let Some(folder) = folder {
             write(folder, frame, &image).expect("a folder to write to");
         }
         let vertex = graph.add_vertex();
         let mut edges = Vec::new();
         if frame > 0 {
-            let step = world_from_camera(frame - 1).inverse_mul(&world_from_camera(frame));
-            let before = VertexId(vertex.0 - 1);
-            edges.push(graph.add_edge(before, vertex, step, EdgeKind::Odometry).expect("an edge"));
+            let step = before.inverse_mul(&pose);
+            let last = VertexId(vertex.0 - 1);
+            edges.push(graph.add_edge(last, vertex, step, EdgeKind::Odometry).expect("an edge"));
         }
+        before = pose;
         let look = Look { vertex, vertex_from_camera: Se3::identity(), image: &image };
         let maps: [&mut dyn Map3d; 2] = [&mut relative, &mut voxels];
         for (map, times) in maps.into_iter().zip(&mut times).take(1 + usize::from(voxels_too)) {
-            let started = Instant::now();
+            let before_ms = cpu_ms(&started);
             map.edges_added(&graph, &edges, &mut Off);
             map.looked(&look, &mut Off).expect("a view");
-            times.push(1e3 * started.elapsed().as_secs_f64());
+            times.push(cpu_ms(&started) - before_ms);
         }
         let window = (frames / 10).max(1);
         if (frame + 1) % window == 0 {

@@ -14,8 +14,6 @@ import time
 import numpy as np
 import octomap
 
-COLUMNS, ROWS = 640, 480
-FX, FY, CX, CY = 576.0, 578.0, 319.5, 239.5
 RANGE_M = 8.0
 
 
@@ -32,15 +30,17 @@ def turned(q):
 
 def main():
     folder = pathlib.Path(sys.argv[1])
+    columns, rows, fx, fy, cx, cy = (float(x) for x in (folder / "camera").read_text().split())
+    columns, rows = int(columns), int(rows)
     tree = octomap.OcTree(0.05)
-    v, u = np.mgrid[0:ROWS, 0:COLUMNS]
+    v, u = np.mgrid[0:rows, 0:columns]
     times = []
     for path in sorted(folder.glob("*.f32")):
-        depth = np.fromfile(path, dtype="<f4").reshape(ROWS, COLUMNS).astype(np.float64)
+        depth = np.fromfile(path, dtype="<f4").reshape(rows, columns).astype(np.float64)
         pose = np.array(path.with_suffix(".pose").read_text().split(), dtype=np.float64)
         good = np.isfinite(depth) & (depth > 0)
         z = depth[good]
-        points = np.stack([(u[good] - CX) / FX * z, (v[good] - CY) / FY * z, z], axis=1)
+        points = np.stack([(u[good] - cx) / fx * z, (v[good] - cy) / fy * z, z], axis=1)
         points = np.ascontiguousarray(points @ turned(pose[3:]).T + pose[:3])
         started = time.process_time()
         tree.insertPointCloud(points, pose[:3], RANGE_M, True, False)
