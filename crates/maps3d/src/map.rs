@@ -183,6 +183,12 @@ pub trait Map3d {
     /// the views taken there, or all there is in a map with one global frame. `out` is overwritten.
     fn frontiers(&mut self, hovering: &Hovering, out: &mut Vec<FrontierPatch>);
 
+    /// Whether frontier belongs to the vertices whose views it is of, and is told at these alone; a map with
+    /// one global frame tells all of it wherever the robot hovers.
+    fn is_by_vertex(&self) -> bool {
+        false
+    }
+
     /// Area of the frontier that counts at a vertex, square metres; 0 means that a way to it is not
     /// worth going on with. Maps with one global frame tell all.
     fn frontier_at(&self, vertex: VertexId) -> f64;
@@ -219,6 +225,10 @@ pub trait Map3d {
         to_in_body: &Point3<f64>,
         leaving_m: f64,
     ) -> FlightClearance;
+
+    /// Frontier of a vertex is about to be given up: a map that holds it against views near in the graph
+    /// only holds it against farther ones now, once. Others do nothing.
+    fn compare_farther(&mut self, _vertex: VertexId, _probe: &mut dyn Map3dProbe) {}
 
     /// Frontier within `radius_m` of `place_in_body` does not count from now on.
     ///

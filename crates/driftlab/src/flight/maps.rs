@@ -117,6 +117,10 @@ impl Map3d for Side {
         self.timed(|map| map.frontiers(hovering, out));
     }
 
+    fn is_by_vertex(&self) -> bool {
+        self.inner.is_by_vertex()
+    }
+
     fn frontier_at(&self, vertex: VertexId) -> f64 {
         self.inner.frontier_at(vertex)
     }
@@ -147,6 +151,10 @@ impl Map3d for Side {
         leaving_m: f64,
     ) -> FlightClearance {
         self.timed(|map| map.clearance(hovering, to_in_body, leaving_m))
+    }
+
+    fn compare_farther(&mut self, vertex: VertexId, probe: &mut dyn Map3dProbe) {
+        self.timed(|map| map.compare_farther(vertex, probe));
     }
 
     fn give_up(

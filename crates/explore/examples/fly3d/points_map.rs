@@ -286,6 +286,10 @@ impl Map3d for PointsMap {
         out.extend(self.patches.get(&hovering.vertex).into_iter().flatten().cloned());
     }
 
+    fn is_by_vertex(&self) -> bool {
+        true
+    }
+
     fn frontier_at(&self, vertex: VertexId) -> f64 {
         self.patches.get(&vertex).into_iter().flatten().map(|p| p.area_m2).sum()
     }

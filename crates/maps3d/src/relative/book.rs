@@ -12,6 +12,8 @@ pub enum Cause {
     Inside,
     /// It lies along an obstacle that another view saw, nearer than the named distance.
     Wall,
+    /// It lies behind such an obstacle, within twice that distance, and was about to be given up.
+    Behind,
 }
 
 /// Number of a closing.

@@ -21,14 +21,15 @@ const KEPT: usize = 4;
 #[derive(Clone, Debug)]
 pub(super) struct Shell {
     pub vertex: VertexId,
-    solid: Vec<[Point3<f32>; 3]>,
-    unseen: Vec<[Point3<f32>; 3]>,
+    corners: Box<[Point3<f32>]>,
+    /// Triangles of `corners`.
+    solid: Box<[[u32; 3]]>,
+    unseen: Box<[[Point3<f32>; 3]]>,
 }
 
 impl Shell {
     pub fn heap_bytes(&self) -> usize {
-        let corners = self.solid.capacity() + self.unseen.capacity();
-        corners * size_of::<[Point3<f32>; 3]>()
+        size_of_val(&*self.corners) + size_of_val(&*self.solid) + size_of_val(&*self.unseen)
     }
 }
 
@@ -54,7 +55,7 @@ impl RelativeMap {
             unseen_at_end_m: f64::INFINITY,
         };
         for corners in &shell.solid {
-            let [a, b, c] = corners.map(|p| p.cast::<f64>());
+            let [a, b, c] = corners.map(|corner| shell.corners[corner as usize].cast::<f64>());
             let triangle = [&a, &b, &c];
             if may_be_nearer(&from, &to, triangle, clearance.solid_m) {
                 let near_m = motion_triangle(&from, &to, triangle);
@@ -116,17 +117,23 @@ impl RelativeMap {
     /// Obstacle faces of all views of a vertex; and of their frontier, what none of them sees beyond, where
     /// it hangs together over more than a sliver.
     fn shell_of(&mut self, vertex: VertexId) -> Shell {
-        let mut shell = Shell { vertex, solid: Vec::new(), unseen: Vec::new() };
+        let (mut corners, mut solid, mut unseen) = (Vec::new(), Vec::new(), Vec::new());
         let mut work = std::mem::take(&mut self.work);
         let (mut all, mut rings) = (StepRings::new(), StepRings::new());
         let numbers = self.views_of(vertex);
         for &view in numbers {
             let state = &self.views[view as usize];
             let vertex_from_camera = &state.vertex_from_camera;
-            for face in state.volume.obstacles() {
-                let corners = state.volume.points(face);
-                shell.solid.push(corners.map(|p| vertex_from_camera.transform(&p).cast::<f32>()));
-            }
+            let first = corners.len() as u32;
+            corners.extend((0..state.volume.corner_count() as u16).map(|corner| {
+                vertex_from_camera.transform(&state.volume.corner(corner)).cast::<f32>()
+            }));
+            solid.extend(
+                state
+                    .volume
+                    .obstacles()
+                    .map(|face| state.volume.face(face).map(|corner| first + u32::from(corner))),
+            );
             let mut bare = state.clone();
             bare.open.fill(OpenPart::default());
             for &against in numbers.iter().filter(|&&other| other != view) {
@@ -147,12 +154,12 @@ impl RelativeMap {
                 let face = FaceGrid::new(corners.map(|p| vertex_from_camera.transform(&p)));
                 rings_of(&bare.open[index], piece, &mut all, &mut rings);
                 triangles(&rings, |piece| {
-                    shell.unseen.push(piece.map(|place| face.point(place).cast::<f32>()));
+                    unseen.push(piece.map(|place| face.point(place).cast::<f32>()));
                 });
             }
         }
         self.work = work;
-        shell
+        Shell { vertex, corners: corners.into(), solid: solid.into(), unseen: unseen.into() }
     }
 }
 

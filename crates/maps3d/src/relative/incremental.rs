@@ -5,6 +5,7 @@ use posegraph::{PoseGraph, Scope, Skeleton};
 use probe::{EdgeId, VertexId};
 
 use super::RelativeMap;
+use super::pair::USUAL;
 use crate::Map3dProbe;
 
 impl RelativeMap {
@@ -58,7 +59,7 @@ impl RelativeMap {
             }
             for against in &placed {
                 if changed.is_path_of(of.row, against.row) {
-                    self.compare_rows(of, against, probe);
+                    self.compare_rows(of, against, &USUAL, probe);
                 }
             }
         }

@@ -3,8 +3,9 @@
 use pose::Se3;
 use probe::{Probe, VertexId};
 
+use super::book::Cause;
 use super::events::ConsolidationEvent;
-use super::pair::Pair;
+use super::pair::{Pair, USUAL};
 use super::volume::LocalVolume;
 use super::{RelativeMap, ViewState};
 use crate::{Look, Map3dProbe, Maps3dError, polyhedron_with};
@@ -81,12 +82,14 @@ impl RelativeMap {
         let root_from_camera = self.views[view as usize].vertex_from_camera;
         self.work.touched.clear();
         for other in placed.iter().filter(|other| other.view != view) {
-            self.compare_rows(&PlacedView { view, row: 0, root_from_camera }, other, probe);
+            let own = PlacedView { view, row: 0, root_from_camera };
+            self.compare_rows(&own, other, &USUAL, probe);
         }
         self.measure_touched();
         for other in placed.iter().filter(|other| other.view != view) {
             if self.views[other.view as usize].counts() {
-                self.compare_rows(other, &PlacedView { view, row: 0, root_from_camera }, probe);
+                let own = PlacedView { view, row: 0, root_from_camera };
+                self.compare_rows(other, &own, &USUAL, probe);
             }
         }
         let before_m2: f64 = self.views.iter().map(|state| state.open_m2).sum();
@@ -100,6 +103,7 @@ impl RelativeMap {
         &mut self,
         of: &PlacedView,
         against: &PlacedView,
+        causes: &[Cause],
         probe: &mut dyn Map3dProbe,
     ) {
         let camera_from_against = of.root_from_camera.inverse_mul(&against.root_from_camera);
@@ -108,7 +112,7 @@ impl RelativeMap {
         let skeleton =
             std::mem::replace(&mut self.skeleton, super::map::empty_skeleton(&self.params));
         let mut path = || scope.path_between(&skeleton, of.row as usize, against.row as usize);
-        self.compare(&pair, &mut path, probe);
+        self.compare(&pair, causes, &mut path, probe);
         (self.scope, self.skeleton) = (scope, skeleton);
     }
 
@@ -152,7 +156,11 @@ impl RelativeMap {
                 places.push((state.vertex_from_camera.inverse_transform(&in_root), *radius_m));
             }
         }
-        self.views[view as usize].given_up = places;
+        if !places.is_empty() {
+            let state = &mut self.views[view as usize];
+            state.given_up = places;
+            state.measure(self.params.sliver_m2);
+        }
     }
 }
 

@@ -175,6 +175,10 @@ impl Map3d for RelativeMap {
         self.patches_of(hovering, out);
     }
 
+    fn is_by_vertex(&self) -> bool {
+        true
+    }
+
     fn frontier_at(&self, vertex: VertexId) -> f64 {
         self.views_of(vertex).iter().map(|&view| self.views[view as usize].open_m2).sum()
     }
@@ -202,6 +206,11 @@ impl Map3d for RelativeMap {
         leaving_m: f64,
     ) -> FlightClearance {
         self.motion_clearance(hovering, to_in_body, leaving_m)
+    }
+
+    fn compare_farther(&mut self, vertex: VertexId, probe: &mut dyn Map3dProbe) {
+        self.compare_with_farther(vertex, probe);
+        self.settled(vertex, probe);
     }
 
     fn give_up(

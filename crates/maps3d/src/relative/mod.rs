@@ -10,7 +10,7 @@
 //! | `grid.rs` | the grid of a face, on which areas are whole numbers |
 //! | `slice.rs` | what of a face lies inside another volume |
 //! | `pair.rs` | two views held against each other |
-//! | `incremental.rs` | which pairs, after edges came |
+//! | `incremental.rs`, `farther.rs` | which pairs, after edges came, and before frontier is given up |
 //! | `book.rs`, `withdraw.rs` | who closed what along which path; taken back |
 //! | `parts.rs`, `samples.rs` | frontier that hangs together; as points |
 //! | `ask.rs`, `clearance.rs`, `distance.rs` | the policy's questions |
@@ -24,6 +24,7 @@ mod cells;
 mod clearance;
 mod distance;
 mod events;
+mod farther;
 mod grid;
 mod incremental;
 mod insert;

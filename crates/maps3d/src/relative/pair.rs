@@ -39,38 +39,49 @@ pub(super) struct Pair {
     pub camera_from_against: Se3,
 }
 
+/// Why frontier is closed as looks and edges come.
+pub(super) const USUAL: [Cause; 2] = [Cause::Inside, Cause::Wall];
+
 /// The shape in which a volume closes, by cause.
 pub(super) fn shape_of(cause: Cause, params: &RelativeParams) -> Shape {
     let inset_px = params.inset_px;
     match cause {
         Cause::Inside => Shape { inset_px, shift_m: -params.shrink_m },
         Cause::Wall => Shape { inset_px, shift_m: params.wall_closing_m },
+        Cause::Behind => Shape { inset_px, shift_m: 2.0 * params.wall_closing_m },
     }
 }
 
 impl RelativeMap {
-    /// Closes what of the open frontier of one view the volume of another accounts for, first what lies
-    /// inside, then what is left along its walls.
+    /// Closes what of the open frontier of one view the volume of another accounts for, one cause after the
+    /// other: usually first what lies inside, then what is left along its walls.
     ///
     /// `path` gives the edges between them; it is asked once, when something is closed.
     pub(super) fn compare(
         &mut self,
         pair: &Pair,
+        causes: &[Cause],
         path: &mut dyn FnMut() -> Vec<EdgeId>,
         probe: &mut dyn Map3dProbe,
     ) {
         if pair.view == pair.against || !may_touch(self, pair) {
             return;
         }
+        // Slivers are not worth the time: they do not count, and get no larger.
+        let view = &self.views[pair.view as usize];
+        let mut counts = vec![false; view.open.len()];
+        for piece in view.parts.iter().flat_map(|part| &part.pieces) {
+            counts[usize::from(piece.face)] = true;
+        }
         let mut path_id: Option<PathId> = None;
-        for cause in [Cause::Inside, Cause::Wall] {
-            if cause == Cause::Wall && self.params.wall_closing_m <= 0.0 {
+        for &cause in causes {
+            if cause != Cause::Inside && self.params.wall_closing_m <= 0.0 {
                 continue;
             }
             let mut work = std::mem::take(&mut self.work);
             let (view, against) =
                 (&self.views[pair.view as usize], &self.views[pair.against as usize]);
-            work.close(view, &against.volume, pair, cause, &self.params, |_| true);
+            work.close(view, &against.volume, pair, cause, &self.params, |face| counts[face]);
             if !work.changed.is_empty() {
                 let path = *path_id.get_or_insert_with(|| self.book.remember(path()));
                 let (view, by, step) = (pair.view, pair.against, self.looks);
@@ -146,7 +157,7 @@ impl Work {
         let mut loaded = false;
         let solid: Vec<bool> = match cause {
             Cause::Inside => Vec::new(),
-            Cause::Wall => {
+            Cause::Wall | Cause::Behind => {
                 let mut solid = vec![false; volume.surface_count()];
                 volume.obstacles().for_each(|face| solid[face as usize] = true);
                 solid
@@ -154,7 +165,7 @@ impl Work {
         };
         let is_solid = |face: u16| solid[face as usize];
         let only: Option<&dyn Fn(u16) -> bool> =
-            if cause == Cause::Wall { Some(&is_solid) } else { None };
+            if cause == Cause::Inside { None } else { Some(&is_solid) };
         for (index, open) in view.open.iter().enumerate() {
             if open.is_closed() || !wanted(index) {
                 continue;
@@ -214,6 +225,6 @@ fn may_touch(map: &RelativeMap, pair: &Pair) -> bool {
     let (view, against) = (&map.views[pair.view as usize], &map.views[pair.against as usize]);
     let (centre, radius_m) = view.open_ball;
     let apart = centre - pair.camera_from_against.translation;
-    let reach_m = radius_m + against.volume.reach_m() + 2.0 * map.params.wall_closing_m;
+    let reach_m = radius_m + against.volume.reach_m() + 4.0 * map.params.wall_closing_m;
     apart.coords.norm_squared() <= reach_m * reach_m
 }

@@ -11,7 +11,7 @@ use super::book::ClosingId;
 use super::events::ConsolidationEvent;
 use super::ledger::OpenPart;
 use super::map::empty_skeleton;
-use super::pair::Pair;
+use super::pair::{Pair, USUAL};
 use crate::Map3dProbe;
 
 impl RelativeMap {
@@ -42,7 +42,7 @@ impl RelativeMap {
             self.work.touched.clear();
             for of in placed.iter().filter(|of| of.row == 0 && opened.contains(&of.view)) {
                 for against in &placed {
-                    self.compare_rows(of, against, probe);
+                    self.compare_rows(of, against, &USUAL, probe);
                 }
             }
             self.measure_touched();
