@@ -8,13 +8,16 @@ use sensing::FlyingRobot;
 
 use super::events::FlightGiveUp;
 use super::memory::Target;
-use super::nearby::{legs_to, nearby};
-use super::viewpoint::Plan;
+use super::nearby::{Near, legs_to, nearby};
+use super::viewpoint::{Aim, Plan};
 use super::{FlightEvent, FlightExplorer, FlightProbe};
 use crate::{Ending, State};
 
 /// Other vertices that are tried as a start for looking at a piece of frontier.
 const OTHERS: usize = 16;
+/// The same for frontier that was put off, and how much farther along the graph they may be.
+const FAR_OTHERS: usize = 32;
+const FAR_AROUND: f64 = 2.0;
 
 impl FlightExplorer {
     pub(super) fn act(&mut self, robot: &mut dyn FlyingRobot, probe: &mut dyn FlightProbe) {
@@ -28,10 +31,11 @@ impl FlightExplorer {
             self.carry_out(robot, plan, probe);
             return;
         }
-        // Each round but the last gives something up.
+        // Each round but the last puts something off, or gives it up.
         loop {
             self.change_state(State::Reactive, probe);
-            self.ask_frontiers();
+            let here = self.hovering.vertex;
+            self.ask_frontiers(here);
             if self.looks_here < self.params.looks_at_a_place
                 && let Some(yaw_rad) = self.best_yaw()
             {
@@ -40,21 +44,21 @@ impl FlightExplorer {
                 return;
             }
             self.targets.clear();
-            if self.patches.is_empty() {
+            if self.patches.is_empty() || !self.later.comes_now(here) {
                 if self.go_elsewhere(robot, probe) {
                     return;
                 }
                 continue;
             }
-            if self.go_look(robot, probe) {
+            if self.go_look(robot, here, probe) {
                 return;
             }
         }
     }
 
-    /// The frontier of the vertex where the robot hovers, in the frame of that vertex.
-    fn ask_frontiers(&mut self) {
-        let hovering = Hovering { vertex: self.hovering.vertex, vertex_from_body: Se3::identity() };
+    /// The frontier of a vertex, in its frame.
+    fn ask_frontiers(&mut self, vertex: VertexId) {
+        let hovering = Hovering { vertex, vertex_from_body: Se3::identity() };
         let mut patches = std::mem::take(&mut self.patches);
         self.maps[0].frontiers(&hovering, &mut patches);
         self.patches = patches;
@@ -64,7 +68,7 @@ impl FlightExplorer {
     fn carry_out(&mut self, robot: &mut dyn FlyingRobot, plan: Plan, probe: &mut dyn FlightProbe) {
         let here = self.hovering.vertex;
         // The owners are near: their frames are known along the graph.
-        let near = nearby(&self.graph, here, 2.0 * self.params.around_m);
+        let near = nearby(&self.graph, here, FAR_AROUND * self.params.around_m + self.params.hop_m);
         for target in &plan.targets {
             let owner = near.iter().find(|near| near.vertex == target.owner);
             let Some(owner) = owner else { continue };
@@ -81,40 +85,86 @@ impl FlightExplorer {
         self.look(robot, probe);
     }
 
-    /// Sets out to look at the frontier of here; false when all that happened is that some was given up.
-    fn go_look(&mut self, robot: &mut dyn FlyingRobot, probe: &mut dyn FlightProbe) -> bool {
-        let here = self.hovering.vertex;
+    /// Sets out to look at the frontier of a vertex, which was asked for; false when all that happened is
+    /// that some was put off or given up.
+    fn go_look(
+        &mut self,
+        robot: &mut dyn FlyingRobot,
+        owner: VertexId,
+        probe: &mut dyn FlightProbe,
+    ) -> bool {
         let (same_m, tries) = (self.params.same_place_m, self.params.tries);
         let targets: Vec<Target> = self.patches.iter().flat_map(targets_of).collect();
-        let in_vain = self.visits.get(&here).is_some_and(|v| v.0 > self.params.visits_in_vain);
+        let in_vain = self.visits.get(&owner).is_some_and(|v| v.0 > self.params.visits_in_vain);
         let (fresh, spent): (Vec<Target>, Vec<Target>) =
             targets.iter().partition(|target| !in_vain && self.tries.count(target, same_m) < tries);
-        let owner_from_here = Se3::identity();
-        if let Some(plan) = self.choose_viewpoint(here, &owner_from_here, &fresh, probe) {
-            self.carry_out(robot, plan, probe);
+        if !self.later.is_last() && self.plan_look(robot, owner, &fresh, probe) {
             return true;
         }
-        // From what others see, the nearest first.
-        let near = nearby(&self.graph, here, self.params.around_m);
-        for other in near.iter().skip(1).take(OTHERS) {
-            let other_from_here = other.root_from_vertex.inverse();
-            let moved: Vec<Target> = fresh.iter().map(|t| t.moved(&other_from_here)).collect();
-            let found = self.choose_viewpoint(other.vertex, &other.root_from_vertex, &moved, probe);
-            if let Some(plan) = found {
-                self.way = legs_to(&near, other.vertex);
-                self.plan = Some(plan);
-                self.set_out(robot, probe);
-                return true;
-            }
+        if self.maps[0].is_by_vertex() && !self.later.is_last() {
+            self.later.put_off(owner);
+            return false;
         }
         for (targets, why) in
             [(spent, FlightGiveUp::NothingNew), (fresh, FlightGiveUp::Unreachable)]
         {
             for target in targets {
-                self.give_up(&target.at, target.area_m2, why, probe);
+                self.give_up(owner, &target.at, target.area_m2, why, probe);
             }
         }
         false
+    }
+
+    /// Sets out to a place that has some targets of a vertex in view, if there is one.
+    fn plan_look(
+        &mut self,
+        robot: &mut dyn FlyingRobot,
+        owner: VertexId,
+        targets: &[Target],
+        probe: &mut dyn FlightProbe,
+    ) -> bool {
+        if targets.is_empty() {
+            return false;
+        }
+        // From what the vertex itself sees, then from what others do: the nearest first, later on those that
+        // are nearest to the targets.
+        let (share, count) =
+            if self.later.is_late() { (FAR_AROUND, FAR_OTHERS) } else { (1.0, OTHERS) };
+        let mut near = nearby(&self.graph, owner, share * self.params.around_m);
+        if self.later.is_late() {
+            let apart = |near: &Near| {
+                let at = near.root_from_vertex.translation;
+                targets.iter().map(|t| (t.at.coords - at).norm()).fold(f64::INFINITY, f64::min)
+            };
+            near.sort_by(|a, b| apart(a).total_cmp(&apart(b)).then(a.vertex.cmp(&b.vertex)));
+        }
+        let aims =
+            if self.later.is_late() { &[Aim::Look, Aim::Approach][..] } else { &[Aim::Look] };
+        for &aim in aims {
+            for other in near.iter().take(count + 1) {
+                let other_from_owner = other.root_from_vertex.inverse();
+                let moved: Vec<Target> =
+                    targets.iter().map(|target| target.moved(&other_from_owner)).collect();
+                let from = (other.vertex, &other.root_from_vertex);
+                if let Some(plan) = self.choose_viewpoint(aim, from, &moved, probe) {
+                    self.go_to(robot, plan, probe);
+                    return true;
+                }
+            }
+        }
+        false
+    }
+
+    /// Carries a plan out here, or sets out to where it begins.
+    fn go_to(&mut self, robot: &mut dyn FlyingRobot, plan: Plan, probe: &mut dyn FlightProbe) {
+        if plan.at == self.hovering.vertex {
+            self.carry_out(robot, plan, probe);
+            return;
+        }
+        let all = nearby(&self.graph, self.hovering.vertex, f64::INFINITY);
+        self.way = legs_to(&all, plan.at);
+        self.plan = Some(plan);
+        self.set_out(robot, probe);
     }
 
     /// The first leg of a way.
@@ -124,13 +174,21 @@ impl FlightExplorer {
         }
     }
 
-    /// Nothing is left here: the nearest frontier elsewhere, or the end. False when all that happened is
-    /// that some was given up.
+    /// Nothing is left to do here: the nearest frontier elsewhere, or the end. False when all that happened
+    /// is that some was put off or given up, or that a new round began.
     fn go_elsewhere(&mut self, robot: &mut dyn FlyingRobot, probe: &mut dyn FlightProbe) -> bool {
         self.change_state(State::Deliberate, probe);
         let hovering = self.hovering;
         let keep_m = self.params.body_radius_m + self.params.margins_m.first().unwrap_or(&0.0);
-        let Some(route) = self.maps[0].route_with(&hovering, keep_m, &|_| true, &mut *probe) else {
+        let later = &self.later;
+        let comes_now = |vertex: VertexId| later.comes_now(vertex);
+        let Some(route) = self.maps[0].route_with(&hovering, keep_m, &comes_now, &mut *probe)
+        else {
+            let is_left = self.maps[0].is_by_vertex() && self.maps[0].tally().patches > 0;
+            if is_left && !self.later.is_last() {
+                self.later.begin_round(self.looks);
+                return false;
+            }
             self.finish(Ending::Complete, probe);
             return true;
         };
@@ -141,6 +199,22 @@ impl FlightExplorer {
                 starts.zip(points).map(|(a, b)| (b - a).norm()).sum()
             }
         };
+        if let FlightRoute::Repeat(legs) = &route {
+            let goal = legs.last().map_or(hovering.vertex, |&(goal, _)| goal);
+            if self.later.comes_again(goal) {
+                // What was put off once is flown for only when there is something to do.
+                self.note_visit(goal);
+                if self.later.is_last() {
+                    self.maps[0].compare_farther(goal, &mut *probe);
+                }
+                self.ask_frontiers(goal);
+                if self.patches.is_empty() {
+                    self.later.put_off(goal);
+                    return false;
+                }
+                return self.go_look(robot, goal, probe);
+            }
+        }
         probe.emit(FlightEvent::RoutePlanned { hovering, route: &route, length_m });
         match route {
             FlightRoute::Repeat(legs) => {
@@ -178,12 +252,12 @@ impl FlightExplorer {
 
     fn give_up(
         &mut self,
+        owner: VertexId,
         place_in_vertex: &Point3,
         area_m2: f64,
         why: FlightGiveUp,
         probe: &mut dyn FlightProbe,
     ) {
-        let owner = self.hovering.vertex;
         self.given_up += 1;
         let place_in_vertex = *place_in_vertex;
         probe.emit(FlightEvent::FrontierGivenUp { owner, place_in_vertex, area_m2, why });

@@ -83,7 +83,7 @@ pub enum FlightEvent<'a> {
         /// Distance that is kept beside the radius of the body, metres.
         margin_m: f64,
     },
-    /// A way to frontier elsewhere was planned (3).
+    /// A way to frontier elsewhere was planned (4).
     RoutePlanned {
         /// Where the robot hovers.
         hovering: Hovering,
@@ -97,7 +97,7 @@ pub enum FlightEvent<'a> {
         /// The distance, metres.
         distance_m: f64,
     },
-    /// The robot repeated one link of the graph (3).
+    /// The robot repeated one link of the graph (4).
     LegRepeated {
         /// Where it hovered.
         from: VertexId,
@@ -106,7 +106,7 @@ pub enum FlightEvent<'a> {
         /// The distance, metres.
         length_m: f64,
     },
-    /// Frontier was given up (4).
+    /// Frontier was given up (5).
     FrontierGivenUp {
         /// The vertex whose views it belongs to.
         owner: VertexId,
@@ -117,7 +117,7 @@ pub enum FlightEvent<'a> {
         /// Why.
         why: FlightGiveUp,
     },
-    /// The run is over (5).
+    /// The run is over (6).
     Finished {
         /// Why.
         ending: Ending,

@@ -7,6 +7,7 @@ use probe::{IdVec, VertexId};
 use sensing::FlyingRobot;
 use std::collections::BTreeMap;
 
+use super::later::Later;
 use super::memory::{Target, Tries};
 use super::panorama::{Lens, Panorama};
 use super::viewpoint::Plan;
@@ -62,6 +63,7 @@ pub struct FlightExplorer {
     /// By vertex: how often the robot came for its frontier in vain, and what was left.
     pub(super) visits: BTreeMap<VertexId, (u32, f64)>,
     pub(super) patches: Vec<FrontierPatch>,
+    pub(super) later: Later,
 }
 
 impl FlightExplorer {
@@ -92,6 +94,7 @@ impl FlightExplorer {
             tries: Tries::default(),
             visits: BTreeMap::new(),
             patches: Vec::new(),
+            later: Later::default(),
         }
     }
 

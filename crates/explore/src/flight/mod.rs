@@ -14,24 +14,33 @@
 //!    area of its frontier that they have in view: across the frontier into the unknown, within the field of
 //!    view, near enough, with nothing in between, and not looked at from there before. The score is that
 //!    area over one metre more than the flight. The best whose straight flight keeps clear of all that is
-//!    solid and of all that was not seen from here is flown to; it becomes a vertex. A flight is judged by
-//!    the views of the vertex where it starts, and by nothing else: they know no drift. Where no place will
-//!    do, the views of vertices nearby are tried in the same way.
-//! 3. **Go elsewhere** (`act.rs`). With no frontier left here, the map names the way along the graph to the
+//!    solid and of all that was not seen from here is flown to; it becomes a vertex. Near to surfaces the
+//!    depth images themselves are asked beside the map: reduced polyhedra are a few centimetres off. A flight
+//!    is judged by the views of the vertex where it starts, and by nothing else: they know no drift. Where no
+//!    place will do, the views of vertices nearby are tried in the same way.
+//! 3. **Put off** (`later.rs`). Frontier that no place has in view now waits: often looks from elsewhere close
+//!    it, or lead to a place that has it in view. When nothing else is left a new round begins, in which more
+//!    vertices are tried, those nearest to the frontier first; and where it cannot be looked at from any of
+//!    them, it is *approached*: the robot flies to where it is nearer to it, along a straight way that it saw
+//!    to be free, and goes on from there. Nothing is flown for before such a place is known.
+//! 4. **Go elsewhere** (`act.rs`). With no frontier left here, the map names the way along the graph to the
 //!    nearest vertex with some, and the robot repeats it.
-//! 4. **Give up.** Frontier that no place has in view is given up as `Unreachable`; what was looked at from
-//!    `tries` places and is still there, as `NothingNew`. Both hold for the place relative to its vertex, and
-//!    are told.
-//! 5. **Done.** No frontier counts any more: `Complete`.
+//! 5. **Give up.** A round in which nobody looked at anything is followed by the last one. What is left is held
+//!    against what was seen farther along the graph; frontier that still counts and that no place has in view
+//!    is given up as `Unreachable`; what was looked at from `tries` places and is still
+//!    there, as `NothingNew`. Both hold for the place relative to its vertex, and are told. In maps with one
+//!    global frame frontier belongs to no vertex, and is given up at once.
+//! 6. **Done.** No frontier counts any more: `Complete`.
 //!
 //! Why it ends: turns at one place are bounded by `looks_at_a_place`; flights for one piece of frontier by
-//! `tries`; visits to one vertex by `visits_in_vain`; rounds within a step, because each gives something up.
-//! What ends every run for certain is `max_steps`.
+//! `tries`; visits to one vertex by `visits_in_vain`; rounds within a step, because each puts something off or
+//! gives it up. What ends every run for certain is `max_steps`.
 
 mod act;
 mod aim;
 mod events;
 mod explorer;
+mod later;
 mod memory;
 mod motion;
 mod nearby;

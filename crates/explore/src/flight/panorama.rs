@@ -10,6 +10,9 @@ pub(super) fn yaw(angle_rad: f64) -> Se3 {
     Se3::new(Vector3::zeros(), UnitQuaternion::from_axis_angle(&Vector3::z_axis(), angle_rad))
 }
 
+/// Distances that differ by less are the same, metres.
+const SAME_M: f64 = 1e-4;
+
 /// The images of one vertex.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Panorama {
@@ -80,6 +83,34 @@ impl Panorama {
         })
     }
 
+    /// Whether a round body that flies straight from the vertex keeps clear of what the pixels saw: from each
+    /// square of four of them it stays `keep_m` away, or gets no nearer than it was at the start.
+    ///
+    /// Near to surfaces reduced polyhedra are not exact enough for that. O(pixels).
+    pub(super) fn keeps_clear(&self, to: &Point3, keep_m: f64) -> bool {
+        let way = to.coords;
+        let squared = way.norm_squared();
+        if squared <= 0.0 {
+            return true;
+        }
+        let reach_m = squared.sqrt() + keep_m;
+        self.looks.iter().all(|seen| {
+            let (squares, camera) = (seen.columns.saturating_sub(1), &seen.camera);
+            let way = seen.vertex_from_camera.rotation.inverse() * way;
+            let start = seen.vertex_from_camera.inverse_transform(&Point3::origin());
+            seen.free_m.iter().enumerate().all(|(at, &depth_m)| {
+                if depth_m <= 0.0 || f64::from(depth_m) > reach_m {
+                    return true;
+                }
+                let (column, row) = ((at % squares) as f64 + 0.5, (at / squares) as f64 + 0.5);
+                let by = camera.point_in_camera(column, row, depth_m.into()) - start;
+                let along = (by.dot(&way) / squared).clamp(0.0, 1.0);
+                let near_m = (by - way * along).norm();
+                near_m >= keep_m || near_m >= by.norm() - SAME_M
+            })
+        })
+    }
+
     /// Whether some image has the direction of a point in it, by at least so many pixels from its border.
     pub(super) fn has_in_view(&self, point_in_vertex: &Point3, border_px: f64) -> bool {
         self.looks.iter().any(|seen| {
@@ -97,7 +128,8 @@ impl Panorama {
             return true;
         }
         let step = way * ((length_m - short_m) / length_m / steps);
-        (1..=steps as usize).all(|i| self.is_free(&(from + step * i as f64), 0.0))
+        // The far end first: it is what fails most often.
+        (1..=steps as usize).rev().all(|i| self.is_free(&(from + step * i as f64), 0.0))
     }
 }
 
@@ -128,4 +160,34 @@ fn in_image(
         let within = |x: f64, count: usize| x >= border_px && x <= count as f64 - 1.0 - border_px;
         within(column, columns) && within(row, rows)
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A wall at x = 1 m, seen from the vertex by a camera that looks along x.
+    fn wall() -> Panorama {
+        let upright = pose::nalgebra::Matrix3::new(0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0);
+        let upright = pose::nalgebra::Rotation3::from_matrix_unchecked(upright);
+        let upright = UnitQuaternion::from_rotation_matrix(&upright);
+        let camera = Camera::new(50.0, 50.0, 49.5, 39.5);
+        let image = DepthImage::new(100, camera, vec![1.0; 100 * 80]);
+        let mut seen = Panorama::default();
+        seen.add(0.0, Se3::new(Vector3::zeros(), upright), &image);
+        seen
+    }
+
+    #[test]
+    fn a_body_keeps_clear_of_what_the_pixels_saw() {
+        let seen = wall();
+        assert!(seen.keeps_clear(&Point3::new(0.7, 0.0, 0.0), 0.25));
+        assert!(!seen.keeps_clear(&Point3::new(0.8, 0.0, 0.0), 0.25));
+        assert!(!seen.keeps_clear(&Point3::new(0.8, 0.4, 0.0), 0.25));
+        assert!(!seen.keeps_clear(&Point3::new(2.0, 0.0, 0.0), 0.25));
+        // Nearer to the wall than it keeps it may get away from it, and along it, but not towards it.
+        assert!(seen.keeps_clear(&Point3::new(-0.5, 0.2, 0.0), 1.2));
+        assert!(seen.keeps_clear(&Point3::origin(), 1.2));
+        assert!(!seen.keeps_clear(&Point3::new(0.1, 0.0, 0.0), 1.2));
+    }
 }
