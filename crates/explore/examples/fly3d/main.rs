@@ -24,10 +24,13 @@ use worlds::space::{
 use worlds::{FlyerParams, SimFlyer, World3d};
 
 /// Prints what happens, where asked to.
-struct Told(bool);
+struct Told(bool, Vec<(probe::VertexId, geometry::Point3, f64, explore::FlightGiveUp)>);
 
 impl Probe<FlightEvent<'_>> for Told {
     fn emit(&mut self, event: FlightEvent<'_>) {
+        if let FlightEvent::FrontierGivenUp { owner, place_in_vertex, area_m2, why } = event {
+            self.1.push((owner, place_in_vertex, area_m2, why));
+        }
         if !self.0 {
             return;
         }
@@ -75,9 +78,12 @@ impl Probe<UnionEvent<'_>> for Told {
     }
 }
 
-fn world(name: &str, seed: u64) -> World3d {
+fn world(name: &str, seed: u64, columns: Option<usize>) -> World3d {
     match name {
-        "rooms" => rooms(&Rooms3dParams { seed, ..Rooms3dParams::default() }),
+        "rooms" => {
+            let good = Rooms3dParams::default();
+            rooms(&Rooms3dParams { seed, columns: columns.unwrap_or(good.columns), ..good })
+        }
         "office" => office(&Office3dParams { seed, ..Office3dParams::default() }),
         "pillars" => pillars(&Pillars3dParams { seed, ..Pillars3dParams::default() }),
         _ => cave(&Cave3dParams { seed, ..Cave3dParams::default() }),
@@ -107,12 +113,17 @@ fn main() {
         FlightParams { body_radius_m: params.radius_m, max_steps: 3000, ..FlightParams::default() };
     let mut relative = RelativeParams::default();
     let mut verbose = false;
+    let mut columns = None;
     for pair in args.iter().skip(4) {
         let (key, value) = pair.split_once('=').expect("key=value");
         let number = || value.parse::<f64>().expect("a number");
         match key {
             "v" => verbose = true,
             "steps" => flight.max_steps = number() as u64,
+            "slip" => params.odometry.sigma_translation = number(),
+            "yaw" => params.odometry.sigma_rotation_rad = number().to_radians(),
+            "columns" => columns = Some(number() as usize),
+            "around" => flight.around_m = number(),
             "fov" => params.camera.fov_down_rad = number().to_radians(),
             "hop" => flight.hop_m = number(),
             "vertices" => {
@@ -132,7 +143,7 @@ fn main() {
         }
     }
     let started = Instant::now();
-    let world = Arc::new(world(&place, seed));
+    let world = Arc::new(world(&place, seed, columns));
     let coverage =
         VoxelCoverage::new(&world, &params.camera, params.radius_m, VoxelParams::default());
     let coverage = coverage.expect("voxels");
@@ -147,7 +158,8 @@ fn main() {
     let mut witness = FlightWitness::new(robot, coverage);
     let mut explorer = FlightExplorer::new(vec![map_of(&kind, relative)], flight);
     let started = Instant::now();
-    let mut told = Told(verbose);
+    let mut told = Told(verbose, Vec::new());
+    let mut worst_m = 0.0_f64;
     let mut collided = 0;
     let report = loop {
         let report = explorer.step(&mut witness, &mut told);
@@ -166,6 +178,27 @@ fn main() {
                 witness.tally().bumps,
             );
         }
+        let odom_error_m = (world.world_from_start() * report.odom_from_body)
+            .inverse_mul(&witness.world_from_body())
+            .translation
+            .norm();
+        worst_m = worst_m.max(odom_error_m);
+        for (owner, place, area_m2, why) in told.1.drain(..) {
+            if let Some(from) = witness.robot().world_from_vertex(owner) {
+                let p = from.transform(&place);
+                println!(
+                    "  GAVE UP {why:?} {area_m2:.3} m2 of {owner} at {:.2} {:.2} {:.2} in vertex {:.2} {:.2} {:.2} surface {:.3} step {}",
+                    p.x,
+                    p.y,
+                    p.z,
+                    place.x,
+                    place.y,
+                    place.z,
+                    world.caster().distance_to(&p),
+                    explorer.steps()
+                );
+            }
+        }
         if witness.tally().collisions > collided {
             collided = witness.tally().collisions;
             println!("  COLLISION at step {} from {}", explorer.steps(), report.hovering.vertex);
@@ -178,10 +211,10 @@ fn main() {
     let tally = witness.tally();
     let start = world.world_from_start();
     let odom_error_m =
-        (start * report.odom_from_body).inverse_mul(&witness.world_from_body()).distance();
+        (start * report.odom_from_body).inverse_mul(&witness.world_from_body()).translation.norm();
     println!(
         "{place} {seed} {scale} {kind}: {:?} coverage {:.4} flown {:.0} m d_max {:?} steps {} looks {} vertices {} \
-         collisions {} bumps {} clearance {:.3} open {:.3} sliver {:.3} largest {:.3} given_up {:.3} ({}) odom error {odom_error_m:.2} m {:.1} s",
+         collisions {} bumps {} clearance {:.3} open {:.3} sliver {:.3} largest {:.3} given_up {:.3} ({}) odom error {odom_error_m:.2} m worst {worst_m:.2} m bytes per view {:.1} KiB {:.1} s",
         report.ending,
         verdict.coverage,
         verdict.distance_m,
@@ -197,6 +230,7 @@ fn main() {
         report.tally.largest_sliver_m2,
         report.tally.given_up_m2,
         explorer.given_up(),
+        explorer.maps()[0].bytes() as f64 / 1024.0 / explorer.looks() as f64,
         started.elapsed().as_secs_f64()
     );
     if verdict.coverage < 0.999 {

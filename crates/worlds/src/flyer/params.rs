@@ -173,6 +173,6 @@ pub struct FlightNoiseParams {
 
 impl Default for FlightNoiseParams {
     fn default() -> Self {
-        Self { sigma_translation: 0.03, sigma_rotation_rad: 1.5f64.to_radians(), scale: 1.0 }
+        Self { sigma_translation: 0.1, sigma_rotation_rad: 5f64.to_radians(), scale: 1.0 }
     }
 }
