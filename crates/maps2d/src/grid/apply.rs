@@ -1,6 +1,6 @@
 //! A scan changes cells (\[ISRR19\] 6.2, eq. 6).
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use geometry::Point2;
 use geometry::planar::StarPolygon;
@@ -35,16 +35,16 @@ impl GridMap {
                 evidence.push((cell, CellState::Occupied));
             }
         }
-        let mut changed: Vec<(Cell, CellState, CellState)> = Vec::new();
+        let mut by_cell: BTreeMap<Cell, (CellState, CellState)> = BTreeMap::new();
         for (cell, state) in evidence {
             let before = self.cells.set(cell, state);
-            match changed.iter_mut().find(|(c, _, _)| *c == cell) {
-                Some(entry) => entry.2 = state,
-                None => changed.push((cell, before, state)),
-            }
+            by_cell.entry(cell).or_insert((before, state)).1 = state;
         }
-        changed.retain(|(_, before, now)| before != now);
-        changed.sort_unstable_by_key(|(cell, _, _)| *cell);
+        let changed: Vec<(Cell, CellState, CellState)> = by_cell
+            .into_iter()
+            .filter(|(_, (before, now))| before != now)
+            .map(|(cell, (before, now))| (cell, before, now))
+            .collect();
         let around: BTreeSet<Cell> = changed
             .iter()
             .flat_map(|(cell, _, _)| cell.sides().into_iter().chain([*cell]))
@@ -89,6 +89,7 @@ impl GridMap {
         let low = self.cells.at(&Point2::new(centre.x - reach_m, centre.y - reach_m));
         let high = self.cells.at(&Point2::new(centre.x + reach_m, centre.y + reach_m));
         let half_m = (0.5 - self.params.cell_margin) * self.params.cell_m;
+        let fence = Fence::around(polygon);
         let mut inside = Vec::new();
         for row in low.row..=high.row {
             for column in low.column..=high.column {
@@ -98,7 +99,7 @@ impl GridMap {
                     let corner = Point2::new(middle.x + x * half_m, middle.y + y * half_m);
                     odom_from_sensor.inverse_transform(&corner)
                 });
-                if holds(polygon, &corners) {
+                if fence.holds(&corners) {
                     inside.push(cell);
                 }
             }
@@ -107,11 +108,45 @@ impl GridMap {
     }
 }
 
-/// Whether a convex quadrilateral lies inside the polygon: its corners do, and no edge of the
-/// polygon cuts in.
-fn holds(polygon: &StarPolygon, corners: &[Point2; 4]) -> bool {
-    corners.iter().all(|corner| polygon.contains(corner))
-        && !polygon.boundary().any(|edge| {
-            (0..4).any(|i| segments_meet(&edge.from, &edge.to, &corners[i], &corners[(i + 1) % 4]))
-        })
+/// Edges of a boundary that share a box.
+const TOGETHER: usize = 8;
+
+/// A polygon and its boundary, with boxes around edges that follow each other: most cells are far from
+/// most of it.
+struct Fence<'a> {
+    polygon: &'a StarPolygon,
+    edges: Vec<[Point2; 2]>,
+    /// Around every so many edges: the low and the high corner.
+    boxes: Vec<[Point2; 2]>,
+}
+
+impl<'a> Fence<'a> {
+    fn around(polygon: &'a StarPolygon) -> Self {
+        let edges: Vec<[Point2; 2]> = polygon.boundary().map(|edge| [edge.from, edge.to]).collect();
+        let boxes = edges.chunks(TOGETHER).map(|some| box_of(some.as_flattened())).collect();
+        Self { polygon, edges, boxes }
+    }
+
+    /// Whether a convex quadrilateral lies inside the polygon: its corners do, and no edge of the
+    /// polygon cuts in.
+    fn holds(&self, corners: &[Point2; 4]) -> bool {
+        if !corners.iter().all(|corner| self.polygon.contains(corner)) {
+            return false;
+        }
+        let [low, high] = box_of(corners);
+        let meets = |of: &[Point2; 2]| {
+            of[0].x <= high.x && of[1].x >= low.x && of[0].y <= high.y && of[1].y >= low.y
+        };
+        let near = self.boxes.iter().zip(self.edges.chunks(TOGETHER)).filter(|(of, _)| meets(of));
+        let cuts = |[from, to]: &[Point2; 2]| {
+            (0..4).any(|i| segments_meet(from, to, &corners[i], &corners[(i + 1) % 4]))
+        };
+        !near.flat_map(|(_, edges)| edges).any(cuts)
+    }
+}
+
+/// The box around points: its low and its high corner.
+fn box_of(points: &[Point2]) -> [Point2; 2] {
+    let (high, low) = (Point2::new(f64::MIN, f64::MIN), Point2::new(f64::MAX, f64::MAX));
+    points.iter().fold([low, high], |[low, high], point| [low.inf(point), high.sup(point)])
 }
