@@ -10,7 +10,8 @@ mod clock;
 use std::io::Write;
 
 use clock::secs;
-use maps3d::{Algorithm, Heuristic, PlanOptions, Planner, Target};
+use maps3d::{Algorithm, Heuristic, PlanEvent, PlanOptions, Planner, Target};
+use probe::Probe;
 use solid::boolean::Options;
 use solid::mesh::weld;
 use solid::synthetic::{Kind, views};
@@ -85,6 +86,18 @@ fn at_share(values: &mut [f64], share: f64) -> f64 {
     values.get((last as f64 * share).round() as usize).copied().unwrap_or(f64::NAN)
 }
 
+/// The cost of the way that the search found first, before any corridor was found too narrow.
+#[derive(Default)]
+struct First(Option<f64>);
+
+impl Probe<PlanEvent<'_>> for First {
+    fn emit(&mut self, event: PlanEvent<'_>) {
+        if let PlanEvent::Routed { cost, .. } = event {
+            self.0.get_or_insert(cost);
+        }
+    }
+}
+
 /// Dijkstra's search, and A* by what it goes by.
 const SEARCHES: [(Algorithm, Heuristic); 4] = [
     (Algorithm::Dijkstra, Heuristic::Zero),
@@ -111,17 +124,22 @@ fn measure(name: &str, map: &Tetrahedra, radius_m: f64, queries: usize) {
     }
     let (_, prepared) = secs(|| planner.prepare());
     // Which gates a ball passes is found out once for a map; the rest is timed apart.
-    let (mut ways, mut found, mut none, mut equal) = (0, 0, 0, 0);
+    let (mut ways, mut found, mut none, mut equal, mut first_equal) = (0, 0, 0, 0, 0);
     let mut expansions = [0; 4];
     let search = |planner: &mut Planner, which, heuristic, pair: &[Point3; 2]| {
         planner.set_search(which, heuristic);
         planner.set_shorten(false);
-        planner.plan(&pair[0], &Target::Point(pair[1])).expect("points inside")
+        let mut first = First::default();
+        let plan = planner.plan_with(&pair[0], &Target::Point(pair[1]), &mut first);
+        (plan.expect("points inside"), first.0)
     };
     let (_, warmed) = secs(|| {
         for pair in &asked {
-            let plans =
+            let searched =
                 SEARCHES.map(|(which, heuristic)| search(&mut planner, which, heuristic, pair));
+            let firsts = searched.each_ref().map(|(_, first)| *first);
+            first_equal += usize::from(firsts.iter().all(|&first| first == firsts[0]));
+            let plans = searched.map(|(plan, _)| plan);
             let costs = plans.each_ref().map(|plan| plan.as_ref().map(|plan| plan.cost_m));
             found += usize::from(costs[0].is_some());
             none += usize::from(costs.iter().any(|cost| cost.is_some() != costs[0].is_some()));
@@ -166,7 +184,8 @@ fn measure(name: &str, map: &Tetrahedra, radius_m: f64, queries: usize) {
         planner.graph().edge_count(),
     ));
     say(&format!(
-        "  cost the same by all searches: {equal} of {found} ({none} found by some alone); expansions over {ways}: \
+        "  cost the same by all searches: {first_equal} of {queries} (after corridors that are too narrow: {equal} of \
+         {found}, {none} found by some alone); expansions over {ways}: \
          Dijkstra {}, A* Manhattan {:.3} of that, Euclidean {:.3}, landmarks {:.3}",
         expansions[0],
         expansions[1] as f64 / expansions[0] as f64,

@@ -38,6 +38,11 @@ impl Obstacles {
 
     /// Distance of a point from the nearest face, if that is less than `reach_m`; metres.
     pub fn within(&self, point: &Point3, reach_m: f64) -> Option<f64> {
+        // Boxes that hold the nearest face are small where faces are many.
+        [0.125, 0.25, 0.5, 1.0].iter().find_map(|share| self.within_box(point, share * reach_m))
+    }
+
+    fn within_box(&self, point: &Point3, reach_m: f64) -> Option<f64> {
         let mut least = reach_m * reach_m;
         let mut found = false;
         self.tree.each_touching(&Aabb::around([point]).grown(reach_m), |face| {
