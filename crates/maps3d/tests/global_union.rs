@@ -221,6 +221,51 @@ fn what_is_seen_all_around_has_no_frontier_left() {
     assert_eq!(map.clearance(&hovering(0), &Point3::new(2.6, 0.0, 0.0), 0.5).solid_m, 0.0);
 }
 
+/// A wall at 3 m with a hole, and a box before it, in small images of a camera that looks past their corner.
+fn wall(step: usize) -> DepthImage {
+    let depth_m = |i: usize| match (i % 40 + step, i / 40) {
+        (28..38, 0..6) => 0.0,
+        (14..22, 12..22) => 1.5,
+        _ => 3.0,
+    };
+    let camera = Camera::new(400.0, 400.0, 319.5, 239.5);
+    DepthImage::new(40, camera, (0..40 * 30).map(depth_m).collect())
+}
+
+#[test]
+fn three_parallel_views_of_a_wall_unite_to_a_map_that_does_not_cross_itself() {
+    // Reduced over the inverse depth, walls that are the same differ by some millionths of a metre.
+    for step_in_m in [0.0, UnionParams::default().step_in_m] {
+        let mut params = UnionParams { step_in_m, ..with_vertices(60) };
+        params.view.prepare.far_m = 4.0;
+        let mut map = UnionMap::new(params).expect("sound options");
+        for step in 0..3_u8 {
+            let vertex_from_camera = at(0.1 * f64::from(step), 0.0, 0.0);
+            let image = wall(step.into());
+            let look = Look { vertex: VertexId(0), vertex_from_camera, image: &image };
+            map.looked(&look, &mut Off).expect("a sound image");
+        }
+        assert!(solid::check(map.polyhedron()).is_valid());
+        assert!(map.fill(&mut Off) > 0);
+        let counts = map.counts();
+        let told = (counts.unions, counts.refused, counts.fillings, counts.refused_fillings);
+        assert_eq!(told, (3, 0, 1, 0), "{counts:?}");
+        assert_eq!(map.beside(), 0);
+    }
+}
+
+#[test]
+fn walls_seen_again_add_hardly_a_face() {
+    let looks = (0..8).map(|i| (0, body_from_camera(f64::from(i % 4) * FRAC_PI_2, 0.0)));
+    let walk = Walk { looks: looks.collect(), ..Walk::sides() };
+    let faces = |step_in_m: f64| {
+        let map = walk.map(UnionParams { step_in_m, ..with_vertices(60) });
+        map.polyhedron().faces().len()
+    };
+    let (drawn_in, as_seen) = (faces(0.02), faces(0.0));
+    assert!(2 * drawn_in < as_seen, "{drawn_in} faces against {as_seen}");
+}
+
 #[test]
 fn areas_of_frontier_add_up_also_when_some_is_given_up() {
     let walk = Walk::sides();

@@ -1,6 +1,7 @@
 //! How views are united, and what counts as frontier.
 
 use posegraph::Options;
+use sensing::Camera;
 use solid::boolean::{COINCIDENT_M, JITTER_M};
 
 use crate::reduce::{InverseDepth, Method, ReduceOptions, Stop};
@@ -42,10 +43,16 @@ pub struct UnionParams {
     /// Vertices of a view are moved by up to this on each axis, so that no faces of two views are exactly
     /// coplanar, metres.
     pub jitter_m: f64,
+    /// A surface seen under at least this angle hides nothing, however coarse the image is, radians: the
+    /// `gap_share` of the depth gaps of `view` is at least what it shows from one pixel to the next.
+    pub grazing_rad: f64,
+    /// The surface of a view is drawn towards the camera by up to this, metres of depth, the later it came the
+    /// more: a wall that is seen again then lies inside of what is free, instead of crossing it all over.
+    pub step_in_m: f64,
     /// Faces nearer than this coincide, metres: the obstacle wins.
     pub coincident_m: f64,
-    /// Frontier faces no farther than this from an obstacle face that looks about the same way are part of the
-    /// wall, metres; 0 for none.
+    /// Frontier faces no farther than this behind obstacle faces of other views, along their rays, are part of
+    /// the wall, metres of depth; 0 for none, 1 at most.
     pub wall_m: f64,
     /// Edges no longer than this are drawn together, metres; 0 leaves all as they are.
     pub clean_m: f64,
@@ -54,6 +61,8 @@ pub struct UnionParams {
     /// Radius of the place that the robot takes up and that is free for certain, metres; 0 for none. It joins the
     /// views of one vertex, which may have nothing but the camera in common.
     pub body_m: f64,
+    /// Frontier that is still there after so many looks at it is given up; 0 never.
+    pub looks_in_vain: u32,
     /// Frontier that hangs together over less does not count, square metres.
     pub sliver_m2: f64,
     /// Frontier faces are cut into pieces with no edge longer than this, metres.
@@ -77,13 +86,16 @@ impl Default for UnionParams {
         let method = Method::InverseDepth(InverseDepth::default());
         let reduce = Some(ReduceOptions::new(method, Stop::Vertices(684)));
         Self {
-            view: ViewOptions { reduce, ..ViewOptions::default() },
+            view: ViewOptions { reduce, frontier_share: 0.5, ..ViewOptions::default() },
             jitter_m: JITTER_M,
+            grazing_rad: 8f64.to_radians(),
+            step_in_m: 0.02,
             coincident_m: COINCIDENT_M,
-            wall_m: 0.1,
+            wall_m: 0.3,
             clean_m: 0.0,
             clean_growth: 1.5,
             body_m: 0.1,
+            looks_in_vain: 6,
             sliver_m2: 0.05,
             piece_m: 0.5,
             point_m: 1.0,
@@ -97,6 +109,15 @@ impl Default for UnionParams {
 }
 
 impl UnionParams {
+    /// The options of a view through a camera.
+    pub(super) fn view_through(&self, camera: &Camera) -> ViewOptions {
+        let mut view = self.view.clone();
+        if let Some(occlusion) = &mut view.occlusion {
+            *occlusion = occlusion.for_grazing(camera, self.grazing_rad);
+        }
+        view
+    }
+
     /// Checks what can be told without an image.
     ///
     /// # Errors
@@ -110,7 +131,8 @@ impl UnionParams {
         let lengths = [
             ("jitter_m", self.jitter_m, 1e-3),
             ("coincident_m", self.coincident_m, 1e-3),
-            ("wall_m", self.wall_m, 10.0),
+            ("step_in_m", self.step_in_m, 1.0),
+            ("wall_m", self.wall_m, 1.0),
             ("clean_m", self.clean_m, 1.0),
             ("body_m", self.body_m, 10.0),
             ("sliver_m2", self.sliver_m2, 1e6),
@@ -129,6 +151,9 @@ impl UnionParams {
             if !(0.01..=1e3).contains(&found) {
                 return wrong(option, found, "metres from 0.01 to 1000");
             }
+        }
+        if !(0.0..=std::f64::consts::FRAC_PI_2).contains(&self.grazing_rad) {
+            return wrong("grazing_rad", self.grazing_rad, "from 0 to a quarter turn");
         }
         if !(self.clean_growth >= 1.0 && self.clean_growth.is_finite()) {
             return wrong("clean_growth", self.clean_growth, "at least 1");

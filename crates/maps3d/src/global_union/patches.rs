@@ -98,25 +98,33 @@ fn frontier_faces(mesh: &Polyhedron) -> impl Iterator<Item = usize> + '_ {
 }
 
 /// Cuts a face into n² equal triangles, none with an edge longer than `piece_m`.
-fn cut(mesh: &Polyhedron, face: usize, piece_m: f64, mut found: impl FnMut(Piece)) {
-    let [a, b, c] = mesh.corners(face);
+fn cut(mesh: &Polyhedron, face: usize, piece_m: f64, found: impl FnMut(Piece)) {
+    let corners = mesh.corners(face);
     let Some(normal) = mesh.scaled_normal(face).try_normalize(0.0) else { return };
-    let (u, v) = (b - a, c - a);
-    let longest = u.norm().max(v.norm()).max((c - b).norm());
-    let cuts = (longest / piece_m).ceil().clamp(1.0, MOST_CUTS as f64) as usize;
+    let cuts = cuts_of(corners, piece_m);
     let area_m2 = mesh.face_area_m2(face) / (cuts * cuts) as f64;
-    let mut put = |i: f64, j: f64| {
-        let at = a + u * (i / cuts as f64) + v * (j / cuts as f64);
-        found(Piece { face: face as u32, at, normal, area_m2 });
-    };
-    for i in 0..cuts {
-        for j in 0..cuts - i {
-            put(i as f64 + 1.0 / 3.0, j as f64 + 1.0 / 3.0);
-            if i + j + 1 < cuts {
-                put(i as f64 + 2.0 / 3.0, j as f64 + 2.0 / 3.0);
-            }
-        }
-    }
+    let piece = |at| Piece { face: face as u32, at, normal, area_m2 };
+    pieces_of(corners, piece_m).map(piece).for_each(found);
+}
+
+/// How many parts each edge is cut into.
+fn cuts_of([a, b, c]: [&Point3; 3], piece_m: f64) -> usize {
+    let longest = (b - a).norm().max((c - a).norm()).max((c - b).norm());
+    (longest / piece_m).ceil().clamp(1.0, MOST_CUTS as f64) as usize
+}
+
+/// The middles of the n² equal triangles that a face is cut into, none with an edge longer than `piece_m` unless
+/// there were too many.
+pub(super) fn pieces_of(corners: [&Point3; 3], piece_m: f64) -> impl Iterator<Item = Point3> {
+    let [a, b, c] = corners.map(|corner| *corner);
+    let cuts = cuts_of(corners, piece_m);
+    let at = move |i: f64, j: f64| a + (b - a) * (i / cuts as f64) + (c - a) * (j / cuts as f64);
+    let squares = (0..cuts).flat_map(move |i| (0..cuts - i).map(move |j| (i, j)));
+    squares.flat_map(move |(i, j)| {
+        let (x, y) = (i as f64, j as f64);
+        let beyond = (i + j + 1 < cuts).then(|| at(x + 2.0 / 3.0, y + 2.0 / 3.0));
+        std::iter::once(at(x + 1.0 / 3.0, y + 1.0 / 3.0)).chain(beyond)
+    })
 }
 
 /// For each face that has a piece the least face that it hangs together with over edges; others stand alone.

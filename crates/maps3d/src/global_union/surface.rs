@@ -1,8 +1,7 @@
 //! Faces of a volume that can be asked about.
 
 use solid::bvh::{Aabb, Bvh};
-use solid::query::distance_to_triangle;
-use solid::{Label, Point3, Polyhedron, Side, Solid, Vector3};
+use solid::{Label, Point3, Polyhedron, Side, Solid};
 
 use super::view::mesh_bytes;
 use crate::plan::between;
@@ -27,6 +26,12 @@ impl Surface {
 
     /// The least distance of a segment to a face of a label, metres, if it is less than `reach_m`.
     pub fn near(&self, from: &Point3, to: &Point3, reach_m: f64, label: Label) -> Option<f64> {
+        // Boxes that hold the nearest face are small where faces are many.
+        let shares = [1.0 / 32.0, 0.125, 0.25, 0.5, 1.0];
+        shares.iter().find_map(|share| self.near_in_boxes(from, to, share * reach_m, label))
+    }
+
+    fn near_in_boxes(&self, from: &Point3, to: &Point3, reach_m: f64, label: Label) -> Option<f64> {
         let mut least = reach_m;
         let mut found = false;
         // Boxes round short pieces hold few faces.
@@ -49,21 +54,6 @@ impl Surface {
             i += 1.0;
         }
         found.then_some(least)
-    }
-
-    /// Whether an obstacle face that looks about the way of a unit vector is nearer to a point than `wall_m`.
-    pub fn is_wall(&self, point: &Point3, normal: &Vector3, cosine: f64, wall_m: f64) -> bool {
-        let mut found = false;
-        self.tree.each_touching(&Aabb::around([point]).grown(wall_m), |face| {
-            let face = face as usize;
-            found = found
-                || (self.mesh.labels()[face] == Label::Obstacle && {
-                    let theirs = self.mesh.scaled_normal(face);
-                    theirs.dot(normal) >= cosine * theirs.norm()
-                        && distance_to_triangle(point, self.mesh.corners(face)) <= wall_m
-                });
-        });
-        found
     }
 
     /// Whether a segment meets any face.

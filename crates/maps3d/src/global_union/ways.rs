@@ -20,6 +20,9 @@ const NEAR_M: f64 = 0.1;
 /// A shorter way than this leads to nothing new, metres.
 const LEAST_M: f64 = 0.3;
 
+/// A leg that is shorter than this joins the next, metres.
+const LEAST_LEG_M: f64 = 0.01;
+
 /// Goals that are tried before less is asked.
 const GOALS: usize = 6;
 
@@ -81,6 +84,7 @@ pub(super) fn to_frontier(
             let Some(goal) = points.last().copied() else { break };
             let keeps = |c: &FlightClearance| c.keeps(0.99 * radius_m, unseen_m);
             let given = cut(wanted.surfaces, &points, wanted.stop_short_m, keeps);
+            let given = straightened(wanted.surfaces, given, keeps);
             if plan.clear && length_m(&given) >= LEAST_M.min(0.5 * plan.path_m) {
                 let skipped = usize::from(!is_outside);
                 return Some((plan, given[skipped..].to_vec()));
@@ -113,6 +117,23 @@ fn inside(space: &crate::plan::Space, from: &Point3) -> Option<Point3> {
 
 fn length_m(points: &[Point3]) -> f64 {
     points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
+}
+
+/// The same path with its first leg as long as it may be: whoever flies it leg by leg asks for a new one after
+/// each, and the first may be no longer than rounding where the path passes close by an edge.
+fn straightened(
+    surfaces: &[&Surface],
+    mut points: Vec<Point3>,
+    keeps: impl Fn(&FlightClearance) -> bool,
+) -> Vec<Point3> {
+    let is_straight = |to: &usize| keeps(&clearance(surfaces, &points[0], &points[*to], LEAVING_M));
+    if let Some(first) = (2..points.len()).rev().find(is_straight) {
+        points.drain(1..first);
+    }
+    while points.len() > 2 && (points[1] - points[0]).norm() < LEAST_LEG_M {
+        points.remove(1);
+    }
+    points
 }
 
 /// The start of a path, as far as it keeps clear and no nearer to its end than `short_m`, or half of its

@@ -178,6 +178,23 @@ impl LocalVolume {
         self.holds(point_in_camera, Shape::PLAIN).is_some()
     }
 
+    /// Whether a point of the frame `camera` lies in the image, by at least `inset_px`.
+    pub(crate) fn shows(&self, point_in_camera: &Point3<f64>, inset_px: f64) -> bool {
+        let [columns, rows] = self.extent.map(|last| f64::from(last) - inset_px);
+        let place = self.camera.pixel_of(point_in_camera);
+        place.is_some_and(|[column, row]| {
+            (inset_px..=columns).contains(&column) && (inset_px..=rows).contains(&row)
+        })
+    }
+
+    /// Whether a ray that ends at an obstacle face passes a point of the frame `camera`, or would if it went on for
+    /// `behind_m` of depth. Expected O(1).
+    pub(crate) fn accounts_for(&self, point_in_camera: &Point3<f64>, behind_m: f64) -> bool {
+        let shape = Shape { inset_px: 0.3, shift_m: behind_m };
+        let beyond = self.holds(point_in_camera, shape);
+        beyond.is_some_and(|face| self.frontier.binary_search(&face).is_err())
+    }
+
     /// The face of the surface beyond a point of a shape of the volume; `None` for a point outside.
     pub(super) fn holds(&self, point: &Point3<f64>, shape: Shape) -> Option<u16> {
         let place = self.camera.pixel_of(point)?;

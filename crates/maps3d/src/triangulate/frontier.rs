@@ -1,5 +1,7 @@
 //! Which squares of the image hold frontier.
 
+use sensing::Camera;
+
 use crate::Maps3dError;
 use crate::image::FilledImage;
 
@@ -32,6 +34,14 @@ impl Occlusion {
             }
         }
         Ok(())
+    }
+
+    /// The same, but with no gap on a flat surface that is seen under at least `grazing_rad`: between pixels of a
+    /// coarse image its depth changes by a larger share.
+    pub fn for_grazing(&self, camera: &Camera, grazing_rad: f64) -> Self {
+        let seen = 1.0 / (camera.fx.abs().min(camera.fy.abs()) * grazing_rad.tan());
+        let gap_share = if seen.is_finite() { self.gap_share.max(seen) } else { self.gap_share };
+        Self { gap_share, ..*self }
     }
 
     /// Whether there is a gap between two depths, metres.

@@ -117,8 +117,9 @@ pub struct GlobalUnionMap3d {
     /// Frontier that hangs together over less than this does not count, square metres.
     #[schemars(range(min = 0.0, max = 1e6))]
     pub sliver_m2: f64,
-    /// Frontier so near to an obstacle face that looks the same way is part of the wall, metres; 0 for none.
-    #[schemars(range(min = 0.0))]
+    /// Frontier so near behind obstacle faces of other views, along their rays, is part of the wall, metres; 0 for
+    /// none.
+    #[schemars(range(min = 0.0, max = 1.0))]
     pub wall_m: f64,
 }
 
