@@ -179,3 +179,29 @@ fn tetrahedralize_fills_a_mesh_and_refuses_by_name() {
     let message = String::from_utf8_lossy(&output.stderr);
     assert!(message.contains("is open: face"), "{message}");
 }
+
+#[test]
+fn points_without_faces_get_delaunay_tetrahedra() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut nodes = String::from("9 3 0 0\n");
+    for corner in 0..8 {
+        let [x, y, z] = [corner >> 2 & 1, corner >> 1 & 1, corner & 1];
+        nodes += &format!("{corner} {x} {y} {z}\n");
+    }
+    fs::write(folder.path().join("cube.node"), nodes + "8 0.5 0.4 0.3\n").expect("it is written");
+    let told = json_of(&["mesh", "tetrahedralize", "cube.node", "-o", "cube.mesh"], folder.path());
+    assert_eq!((&told["vertices"], &told["input_faces"]), (&9.into(), &0.into()));
+    assert_eq!(told["steiner_points"], 0);
+    assert_eq!(told["tetrahedra"], 12);
+    let volume = told["volume_m3"].as_f64().expect("a number");
+    assert!((volume - 1.0).abs() < 1e-12, "{volume}");
+
+    fs::write(folder.path().join("flat.node"), "4 3 0 0\n0 0 0 0\n1 1 0 0\n2 0 1 0\n3 1 1 0\n")
+        .expect("it is written");
+    let output = driftlab()
+        .args(["mesh", "tetrahedralize", "flat.node"])
+        .current_dir(folder.path())
+        .output()
+        .expect("it runs");
+    assert_eq!(output.status.code(), Some(2), "{}", String::from_utf8_lossy(&output.stderr));
+}

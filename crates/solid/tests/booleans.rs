@@ -278,6 +278,28 @@ fn jitter_depends_on_view_and_vertex_alone() {
 }
 
 /// A box with corners on a coarse grid, so that most pairs share planes, edges or corners.
+#[test]
+fn what_operands_share_of_their_surface_is_not_left_twice() {
+    let a = as_mesh([[0, 2], [0, 2], [0, 2]], Label::Obstacle);
+    // Side by side; on top, in part; overlapping with two surfaces in one plane.
+    for (sides, volume) in [
+        ([[2, 4], [0, 2], [0, 2]], 16.0),
+        ([[1, 3], [0, 2], [2, 4]], 16.0),
+        ([[1, 3], [0, 2], [0, 2]], 8.0),
+    ] {
+        let b = as_mesh(sides, Label::Obstacle);
+        let options = Options::default();
+        let mesh = boolean(&a, &b, Operation::SymmetricDifference, &options).expect("two boxes");
+        assert_manifold(&mesh, "symmetric difference");
+        assert!(solid::crossings(&mesh, 1).is_empty(), "{sides:?}");
+        assert!(
+            (mesh.volume_m3() - 1e-3 * volume).abs() < 1e-12,
+            "{sides:?}: {}",
+            mesh.volume_m3()
+        );
+    }
+}
+
 fn grid_box() -> impl Strategy<Value = [[i32; 2]; 3]> {
     prop::array::uniform3((0..4_i32, 1..3_i32).prop_map(|(low, size)| [low, low + size]))
 }

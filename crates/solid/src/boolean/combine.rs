@@ -11,7 +11,7 @@ use super::{
 use crate::bvh::Aabb;
 use crate::predicates::in_envelope;
 use crate::reduce::{Cleaned, clean};
-use crate::validity::check_topology;
+use crate::validity::{check_topology, crossings};
 use crate::{Label, Point3, Polyhedron, Solid, SolidError};
 
 /// How booleans are done.
@@ -82,13 +82,22 @@ pub fn boolean_by<K: Kernel>(
     let failed =
         |Refusal(reason): Refusal| SolidError::Engine { operation: operation.name(), reason };
     let done = |operation| kernel.combine(&taken_a, &taken_b, operation).map_err(failed);
-    let combined = if operation == Operation::SymmetricDifference {
+    let mesh = if operation == Operation::SymmetricDifference {
         let other = kernel.combine(&taken_b, &taken_a, Operation::Difference).map_err(failed)?;
-        side_by_side(kernel.give(&done(Operation::Difference)?), kernel.give(&other))
+        let both = side_by_side(kernel.give(&done(Operation::Difference)?), kernel.give(&other));
+        let both = labelled(both, &tags, operation.name())?;
+        // Operands that share a part of their surface leave it twice.
+        if crossings(&both, 1).is_empty() {
+            both
+        } else {
+            let (all, common) = (done(Operation::Union)?, done(Operation::Intersection)?);
+            let rest = kernel.combine(&all, &common, Operation::Difference).map_err(failed)?;
+            let rest = labelled(kernel.give(&rest), &tags, operation.name())?;
+            if crossings(&rest, 1).is_empty() { rest } else { both }
+        }
     } else {
-        kernel.give(&done(operation)?)
+        labelled(kernel.give(&done(operation)?), &tags, operation.name())?
     };
-    let mesh = labelled(combined, &tags, operation.name())?;
     if probe.on() {
         tell_combined(&mesh, a, b, probe);
     }

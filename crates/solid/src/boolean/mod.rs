@@ -5,7 +5,7 @@
 //! | 1. faces are numbered: one number for each label, or for each label and origin | `tags.rs` |
 //! | 2. an engine combines the operands and gives each face the number of the one it is part of | `kernel.rs`, `manifold.rs` |
 //! | 3. numbers become labels and origins again; a frontier face that coincides with an obstacle face of an operand, looking the same way, becomes obstacle | `coincide.rs` |
-//! | 4. the pieces of a symmetric difference are laid side by side | `combine.rs` |
+//! | 4. the pieces of a symmetric difference are laid side by side; where they share a surface, the intersection is cut out of the union instead | `combine.rs` |
 //! | 5. slivers go, where that is asked for ([`clean`](crate::clean)) | `combine.rs` |
 //! | 6. many views are united one by one, each jittered first where they may be exactly coplanar | `unite.rs`, `jitter.rs` |
 //!
@@ -13,7 +13,7 @@
 //! which decides intersections by symbolic perturbation and so always gives a 2-manifold. Geometry is
 //! right to about 1e-12 of the size of the operands; where faces are coplanar to rounding, the result
 //! may intersect itself by as little. [`jittered`] moves the vertices of each view by 1e-8 m, seeded by
-//! the view, and then it does not. Another engine is another [`Kernel`].
+//! the view, and then a union or an intersection does not; a difference leaves slivers between such faces and may. Another engine is another [`Kernel`].
 //!
 //! **Labels.** Faces of different numbers are never merged. With numbers for labels alone, coplanar
 //! neighbours of one label are, which leaves fewer faces; with origins, none are. Where an obstacle

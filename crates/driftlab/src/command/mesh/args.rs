@@ -50,7 +50,9 @@ pub(super) enum MeshCommand {
             Both must be closed 2-manifolds, oriented outward. Faces keep their labels; a frontier face \
             that coincides with an obstacle face, looking the same way, becomes obstacle. --jitter \
             moves the vertices of B by up to 1e-8 m first: where faces of A and B are coplanar to \
-            rounding, the result intersects itself without it.",
+            rounding, a union or an intersection may intersect itself by as little without it. Where an \
+            obstacle face covers only a part of a frontier face, the middle of the latter decides for all of \
+            it; smaller faces are nearer to the truth.",
         after_help = "Examples:\n  \
             driftlab mesh boolean union a.ply b.ply -o both.ply\n  \
             driftlab mesh boolean difference part.stl tool.stl --record cut.rrd\n  \
@@ -343,6 +345,9 @@ pub(super) struct PlanArgs {
 #[derive(Debug, Args)]
 pub(super) struct TetrahedralizeArgs {
     /// The mesh: PLY, OBJ, STL, OFF, .node, .poly or .smesh
+    ///
+    /// Points without faces get the Delaunay tetrahedra of all that they span. Boundary markers of .poly and
+    /// .smesh are no labels: every face is an obstacle.
     pub(super) file: PathBuf,
     #[command(flatten)]
     pub(super) input: MeshInput,

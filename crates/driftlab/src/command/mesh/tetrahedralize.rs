@@ -6,9 +6,10 @@ use std::time::Instant;
 use anyhow::anyhow;
 use formats::mesh::{TetrahedraFile, write_medit, write_vtk};
 use instrument::{SolidOptions, TetrahedraRecording};
+use probe::Probe;
 use serde_json::json;
-use solid::tetrahedra::{Inside, tetrahedralize_in};
-use solid::{Polyhedron, SolidError, Tetrahedra};
+use solid::tetrahedra::{Inside, delaunay_with, tetrahedralize_in};
+use solid::{Polyhedron, SolidError, Tetrahedra, TetrahedraEvent};
 
 use super::super::failure::Failure;
 use super::super::files::{free, write_whole};
@@ -33,8 +34,8 @@ pub(super) fn tetrahedralize(args: &TetrahedralizeArgs, out: &Out) -> Result<(),
         recording.record.as_deref().map(|path| record(path, args, &read.mesh)).transpose()?;
     let start = Instant::now();
     let found = match &mut recording {
-        Some(recording) => tetrahedralize_in(&read.mesh, &inside, recording),
-        None => tetrahedralize_in(&read.mesh, &inside, &mut probe::Off),
+        Some(recording) => filled(&read.mesh, &inside, recording),
+        None => filled(&read.mesh, &inside, &mut probe::Off),
     };
     let secs = start.elapsed().as_secs_f64();
     let found = found.map_err(|error| refused(&error, &args.file))?;
@@ -71,6 +72,21 @@ pub(super) fn tetrahedralize(args: &TetrahedralizeArgs, out: &Out) -> Result<(),
         ("seconds", format!("read {:.4}, tetrahedralize {secs:.4}", read.secs)),
     ];
     out.result(&json, &listed(&rows))
+}
+
+/// The inside of a mesh; of points without faces all that they span.
+fn filled(
+    mesh: &Polyhedron,
+    inside: &Inside,
+    probe: &mut impl for<'a> Probe<TetrahedraEvent<'a>>,
+) -> Result<Tetrahedra, SolidError> {
+    match mesh.faces().is_empty() {
+        true => {
+            let points = mesh.vertices();
+            Ok(delaunay_with(points, probe)?.into_tetrahedra(points.to_vec()))
+        }
+        false => tetrahedralize_in(mesh, inside, probe),
+    }
 }
 
 fn record(

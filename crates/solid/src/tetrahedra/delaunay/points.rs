@@ -7,7 +7,7 @@ use crate::tetrahedra::events::TetrahedraEvent;
 use crate::tetrahedra::mesh::NONE;
 use crate::tetrahedra::order::{Growth, brio};
 use crate::tetrahedra::predicates::P3;
-use crate::{Point3, SolidError};
+use crate::{Point3, SolidError, Tetrahedra};
 
 /// The Delaunay tetrahedralisation of points.
 ///
@@ -23,6 +23,19 @@ pub struct Delaunay {
     pub neighbours: Vec<[Option<u32>; 4]>,
     /// For each point the one that stands for it: itself, or another at the same place.
     pub representative: Vec<u32>,
+}
+
+impl Delaunay {
+    /// The same as tetrahedra of `points`, those that it was made of; no face is a boundary that was asked for.
+    pub fn into_tetrahedra(self, points: Vec<Point3>) -> Tetrahedra {
+        Tetrahedra {
+            vertices: points,
+            tetrahedra: self.tetrahedra,
+            neighbours: self.neighbours,
+            boundary: Vec::new(),
+            steiner_points: 0,
+        }
+    }
 }
 
 /// The Delaunay tetrahedralisation of `points`, metres, any frame. Expected O(n log n).
