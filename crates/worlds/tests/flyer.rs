@@ -53,6 +53,8 @@ fn every_pixel_lies_on_a_surface_and_nothing_lies_before_it() {
 fn noise_has_the_asked_for_spread_and_depends_on_the_count_alone() {
     let mut params = FlyerParams::default();
     params.odometry.scale = 2.0;
+    params.odometry.sigma_translation = 0.03;
+    params.odometry.sigma_rotation_rad = 1.5f64.to_radians();
     let mut errors = Vec::new();
     let mut yaws = Vec::new();
     for seed in 0..400 {

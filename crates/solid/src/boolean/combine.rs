@@ -14,6 +14,9 @@ use crate::reduce::{Cleaned, clean};
 use crate::validity::{check_topology, crossings};
 use crate::{Label, Point3, Polyhedron, Solid, SolidError};
 
+/// An intersection with less than this share of the volume of the union is a leaf.
+const LEAF_SHARE: f64 = 1e-12;
+
 /// How booleans are done.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
@@ -92,8 +95,17 @@ pub fn boolean_by<K: Kernel>(
         } else {
             let (all, common) = (done(Operation::Union)?, done(Operation::Intersection)?);
             let rest = kernel.combine(&all, &common, Operation::Difference).map_err(failed)?;
-            let rest = labelled(kernel.give(&rest), &tags, operation.name())?;
-            if crossings(&rest, 1).is_empty() { rest } else { both }
+            let mesh = |taken| labelled(kernel.give(taken), &tags, operation.name());
+            let (rest, all, common) = (mesh(&rest)?, mesh(&all)?, mesh(&common)?);
+            // Operands that only touch have leaves without volume in common, which cut nothing out.
+            let touch = common.volume_m3().abs() <= LEAF_SHARE * all.volume_m3();
+            if crossings(&rest, 1).is_empty() {
+                rest
+            } else if touch && crossings(&all, 1).is_empty() {
+                all
+            } else {
+                both
+            }
         }
     } else {
         labelled(kernel.give(&done(operation)?), &tags, operation.name())?

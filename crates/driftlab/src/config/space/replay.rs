@@ -28,6 +28,7 @@ pub struct Replay3d {
     /// How images are reduced to the vertices of a map.
     pub reduce: Reduction,
     /// Camera where the log names none: focal lengths and centre `[fx, fy, cx, cy]`, pixels.
+    #[schemars(inner(range(min = -1e6, max = 1e6)))]
     pub intrinsics: [f64; 4],
     /// An image without a pose so near in time is left out, seconds.
     #[schemars(range(min = 0.0, max = 3600.0))]
