@@ -14,14 +14,14 @@ use super::config::load;
 use super::failure::Failure;
 use super::out::Out;
 use super::progress::Bar;
-use super::run::check_recording;
+use super::run::{check_recording, wrote};
 use super::table::table;
-use crate::config::{ConfigError, Level, Loaded, Poses};
+use crate::config::{ConfigError, Loaded, Poses};
 use crate::replay::{
     Asked, Log, PlanarLog, Replayed, files, read_matches, replay as replay_log,
     start_replay_recording,
 };
-use crate::run::{Input, RunFolder, names, to_json};
+use crate::run::{Input, RunFolder, to_json};
 
 pub(super) fn replay(args: &ReplayArgs, out: &Out) -> Result<(), Failure> {
     let loaded = load(&args.input(), out)?;
@@ -116,11 +116,7 @@ fn planar(
     }
     folder.finish()?;
     report(dir, &replayed, out)?;
-    out.note(&format!("wrote {}", dir.display()));
-    if config.record.level != Level::Off {
-        let shown = if args.record.is_some() { file } else { dir.join(names::RECORDING) };
-        out.note(&format!("step through it with: driftlab view {}", shown.display()));
-    }
+    wrote(dir, None, args.record.as_deref(), config.record.level, out);
     Ok(())
 }
 

@@ -70,7 +70,8 @@ pub(super) fn run(args: &RunArgs, out: &Out) -> Result<(), Failure> {
     }
 
     report(&dir, &outcome, out)?;
-    wrote(args, &dir, experiment.config.record.level, out);
+    let (export, record) = (args.export.as_deref(), args.record.as_deref());
+    wrote(&dir, export, record, experiment.config.record.level, out);
     Ok(())
 }
 
@@ -81,13 +82,18 @@ fn out_dir(args: &RunArgs, loaded: &Loaded) -> PathBuf {
 }
 
 /// Says where the results are, and how to look at them.
-fn wrote(args: &RunArgs, dir: &Path, level: Level, out: &Out) {
-    out.note(&format!("wrote {}", dir.display()));
-    if let Some(folder) = &args.export {
+pub(super) fn wrote(
+    dir: &Path,
+    export: Option<&Path>,
+    record: Option<&Path>,
+    level: Level,
+    out: &Out,
+) {
+    for folder in [Some(dir), export].into_iter().flatten() {
         out.note(&format!("wrote {}", folder.display()));
     }
     if level != Level::Off {
-        let shown = args.record.clone().unwrap_or_else(|| dir.join(names::RECORDING));
+        let shown = record.map_or_else(|| dir.join(names::RECORDING), Path::to_owned);
         out.note(&format!("step through it with: driftlab view {}", shown.display()));
     }
 }

@@ -23,6 +23,7 @@ mod watch;
 pub use drive::{FlightRun, fly};
 pub use experiment::FlightExperiment;
 pub use place::{FlightPlace, build_flight_place};
+pub(crate) use record::create_recording;
 pub use record::start_flight_recording;
 pub use report::{FlightMetrics, FlightTiming};
 pub use session::{FlightOutcome, flight_files, run_flight};

@@ -2,12 +2,13 @@
 
 use std::path::Path;
 
+use geometry::Point3;
 use instrument::{FlightOptions, FlightRecorder, FlightRecording, FlightStep, InstrumentError};
 use metrics::VoxelCoverage;
 use worlds::World3d;
 
 use super::{FlightExperiment, FlightSeen, FlightWatch};
-use crate::config::plain_toml;
+use crate::config::{Config, plain_toml};
 use crate::run::{RunError, every_of, level_of};
 
 /// Starts the recording of a flight; at level `off` no file is made.
@@ -21,7 +22,22 @@ pub fn start_flight_recording(
     path: &Path,
     about: &str,
 ) -> Result<FlightRecording, RunError> {
-    let config = &experiment.config;
+    let bounds_in_world = experiment.place.world.bounds();
+    create_recording(&experiment.config, path, about, bounds_in_world, true)
+}
+
+/// Creates a recording of the maps of space of a config, for a simulator that knows the truth or for a log
+/// that does not.
+///
+/// # Errors
+/// Where the file cannot be created.
+pub(crate) fn create_recording(
+    config: &Config,
+    path: &Path,
+    about: &str,
+    bounds_in_world: (Point3, Point3),
+    has_truth: bool,
+) -> Result<FlightRecording, RunError> {
     Ok(FlightRecording::create(FlightOptions {
         path: path.to_owned(),
         name: config.name.clone(),
@@ -30,8 +46,8 @@ pub fn start_flight_recording(
         maps: config.map_keys().into_iter().map(str::to_owned).collect(),
         about: about.to_owned(),
         config: plain_toml(config)?,
-        bounds_in_world: experiment.place.world.bounds(),
-        has_truth: true,
+        bounds_in_world,
+        has_truth,
     })?)
 }
 

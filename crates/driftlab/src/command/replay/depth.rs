@@ -10,10 +10,11 @@ use super::super::args::ReplayArgs;
 use super::super::failure::Failure;
 use super::super::out::Out;
 use super::super::progress::Bar;
+use super::super::run::wrote;
 use super::super::table::table;
-use crate::config::{Level, Loaded};
+use crate::config::Loaded;
 use crate::replay::{DepthFrames, DepthReplayed, depth_files, replay_depth};
-use crate::run::{Input, RunFolder, names, to_json};
+use crate::run::{Input, RunFolder, to_json};
 
 pub(super) fn replay(
     args: &ReplayArgs,
@@ -48,11 +49,7 @@ pub(super) fn replay(
     }
     folder.finish()?;
     report(dir, &replayed, out)?;
-    out.note(&format!("wrote {}", dir.display()));
-    if config.record.level != Level::Off {
-        let shown = if args.record.is_some() { file } else { dir.join(names::RECORDING) };
-        out.note(&format!("step through it with: driftlab view {}", shown.display()));
-    }
+    wrote(dir, None, args.record.as_deref(), config.record.level, out);
     Ok(())
 }
 

@@ -54,7 +54,7 @@ pub(super) fn run(args: &RunArgs, loaded: &Loaded, dir: &Path, out: &Out) -> Res
     }
     folder.finish()?;
     report(dir, &outcome, out)?;
-    wrote(args, dir, experiment.config.record.level, out);
+    wrote(dir, None, args.record.as_deref(), experiment.config.record.level, out);
     Ok(())
 }
 

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use explore::FlightEvent;
 use geometry::Point3;
-use instrument::{FlightOptions, FlightRecorder, FlightRecording, FlightStep};
+use instrument::{FlightRecorder, FlightStep};
 use maps3d::{Hovering, Look};
 use pose::Se3;
 use posegraph::{EdgeKind, PoseGraph};
@@ -18,8 +18,9 @@ use super::frames::{DepthFrame, DepthFrames};
 use super::maps::DepthMap;
 use super::report::{DepthMapMetrics, DepthMapTiming, DepthMetrics, DepthTiming};
 use super::way::to_frontier;
-use crate::config::{Config, plain_toml};
-use crate::run::{AtWork, RunError, TimedProbe, every_of, level_of, quantile, to_json};
+use crate::config::Config;
+use crate::flight::create_recording;
+use crate::run::{AtWork, RunError, TimedProbe, quantile, to_json};
 
 /// What came of a replay of depth images.
 #[derive(Clone, Debug)]
@@ -68,7 +69,8 @@ pub fn replay_depth(
         let found = format!("found {images} depth images and {poses} poses, none for an image");
         return Err(frames.refused(&format!("{found}; expected depth images with poses")));
     };
-    let recording = start(config, recording, about, settings.far_m)?;
+    let reach = Point3::new(settings.far_m, settings.far_m, 0.5 * settings.far_m);
+    let recording = create_recording(config, recording, about, (-reach, reach), false)?;
     let sides = maps.into_iter().map(|(name, map)| {
         let mut recorder = recording.recorder(name);
         recorder.without_place();
@@ -96,26 +98,6 @@ pub fn replay_depth(
     Ok(DepthReplayed { metrics, timing, meshes, poses: course.poses })
 }
 
-fn start(
-    config: &Config,
-    path: &Path,
-    about: &str,
-    far_m: f64,
-) -> Result<FlightRecording, ReplayError> {
-    let reach = Point3::new(far_m, far_m, 0.5 * far_m);
-    Ok(FlightRecording::create(FlightOptions {
-        path: path.to_owned(),
-        name: config.name.clone(),
-        level: level_of(config.record.level),
-        every: every_of(&config.record.every),
-        maps: config.map_keys().into_iter().map(str::to_owned).collect(),
-        about: about.to_owned(),
-        config: plain_toml(config).map_err(RunError::from)?,
-        bounds_in_world: (-reach, reach),
-        has_truth: false,
-    })?)
-}
-
 /// The images so far.
 struct Course {
     sides: Vec<Side>,
@@ -127,7 +109,7 @@ struct Course {
     distance_m: f64,
 }
 
-/// What came of asking for the way: its length, where it bends, what it took.
+/// What a map came to, the way to the nearest frontier included; and how long that way took, milliseconds.
 type Asked = (DepthMapMetrics, f64);
 
 impl Course {
