@@ -1,7 +1,7 @@
 //! What others ask of the map ([`Map3d`]), by the stages that answer.
 
 use pose::Se3;
-use posegraph::PoseGraph;
+use posegraph::{Manifold, PoseGraph};
 use probe::{EdgeId, Off, Probe, VertexId};
 use solid::Point3;
 
@@ -72,9 +72,7 @@ impl Map3d for UnionMap {
     }
 
     fn looked(&mut self, look: &Look<'_>, probe: &mut dyn Map3dProbe) -> Result<(), Maps3dError> {
-        let pose = &look.vertex_from_camera;
-        let finite = pose.translation.iter().chain(pose.rotation.coords.iter());
-        if !finite.copied().all(f64::is_finite) {
+        if !look.vertex_from_camera.is_finite() {
             return Err(Maps3dError::Pose { vertex: look.vertex });
         }
         let options = self.params.view_through(&look.image.camera);

@@ -1,7 +1,7 @@
 //! Step 5: where vertices are, by odometry alone or corrected.
 
 use pose::Se3;
-use posegraph::{Edge, EdgeKind, Factor, FactorGraph3, PoseGraph, optimize};
+use posegraph::{Edge, EdgeKind, Factor, FactorGraph3, Manifold, PoseGraph, optimize};
 use probe::{EdgeId, IdVec, VertexId};
 
 use super::{UnionCorrection, UnionEvent};
@@ -36,7 +36,7 @@ impl Poses {
 
     /// Takes poses as they are; those that are not finite are left out.
     pub fn set(&mut self, map_from_vertex: &[Se3]) {
-        for (i, pose) in map_from_vertex.iter().enumerate().filter(|(_, pose)| is_finite(pose)) {
+        for (i, pose) in map_from_vertex.iter().enumerate().filter(|(_, pose)| pose.is_finite()) {
             let vertex = VertexId(i as u32);
             self.cover(vertex);
             self.map_from_vertex[vertex] = *pose;
@@ -78,7 +78,7 @@ impl Poses {
         };
         let before = self.map_from_vertex.as_slice();
         let solution = optimize(&problem, before, &correction.optimizer);
-        if solution.poses.len() != count || !solution.poses.iter().all(is_finite) {
+        if solution.poses.len() != count || !solution.poses.iter().all(Manifold::is_finite) {
             probe.emit(UnionEvent::NotCorrected { report: &solution.report });
             return false;
         }
@@ -95,10 +95,6 @@ impl Poses {
     pub fn heap_bytes(&self) -> usize {
         self.map_from_vertex.len() * size_of::<Se3>()
     }
-}
-
-fn is_finite(pose: &Se3) -> bool {
-    pose.translation.iter().chain(pose.rotation.coords.iter()).all(|value| value.is_finite())
 }
 
 impl UnionCorrection {

@@ -6,6 +6,7 @@ use std::path::{Path, PathBuf};
 use formats::depth::DepthPixels;
 use formats::log::{CameraMessage, Content};
 use pose::Se3;
+use posegraph::Manifold;
 use sensing::{Camera, DepthImage};
 
 use super::super::ReplayError;
@@ -130,9 +131,7 @@ impl DepthFrames {
                 if *self.topics[1].get_or_insert(message.topic) == message.topic =>
             {
                 let stamp_secs = pose.header.stamp.secs();
-                let is_pose = pose.frame_from_body.translation.iter().all(|x| x.is_finite())
-                    && pose.frame_from_body.rotation.coords.iter().all(|x| x.is_finite());
-                match is_pose {
+                match pose.frame_from_body.is_finite() {
                     true => self.poses.push((stamp_secs, pose.frame_from_body)),
                     false => self.told.push(format!("the pose at {stamp_secs:.3} s is none")),
                 }
