@@ -95,6 +95,46 @@ impl RelativeMap {
         self.consolidate(probe);
     }
 
+    /// Drops the pairs whose way through the scope at hand may not decide, because another is clearly
+    /// shorter, unless more certainty is asked of it than at a last look.
+    ///
+    /// Where both are recognised from a new vertex that is off the way between them, their poses by way
+    /// of it are worse than those that they were held against each other with.
+    pub(super) fn drop_longer_ways(&mut self, pairs: &mut Vec<(u32, u32)>) {
+        // Where more is asked of placement than at a last look, that decides: the longer way may have
+        // less odometry, and be the surer one.
+        if self.params.certainty.sigmas > self.params.last_look_sigmas {
+            return;
+        }
+        let rows = self.scope.placed();
+        let walked = if self.scope_is_full { &self.full } else { &self.skeleton };
+        let mut kept: Vec<(u32, u32)> = Vec::with_capacity(pairs.len());
+        let (mut others, mut distances_m) = (Vec::new(), Vec::new());
+        for of_target in pairs.chunk_by(|one, next| one.0 == next.0) {
+            let target = rows[of_target[0].0 as usize];
+            let limit_m = |pair: &(u32, u32)| {
+                (target.distance_m + rows[pair.1 as usize].distance_m) / NEARLY_SHORTEST
+            };
+            others.clear();
+            // The ways from and to the root are the shortest that there are.
+            if of_target[0].0 != 0 {
+                others.extend(of_target.iter().map(|pair| rows[pair.1 as usize].vertex));
+            }
+            if others.iter().all(|other| *other == rows[0].vertex) {
+                kept.extend_from_slice(of_target);
+                continue;
+            }
+            let most_m = of_target.iter().map(limit_m).fold(0.0, f64::max);
+            let scratch = &mut self.scratch;
+            scratch.distances_within(walked, target.vertex, &others, most_m, &mut distances_m);
+            let decide = of_target.iter().zip(&distances_m).filter(|(pair, distance_m)| {
+                pair.1 == 0 || distance_m.is_none_or(|distance_m| distance_m > limit_m(pair))
+            });
+            kept.extend(decide.map(|(pair, _)| *pair));
+        }
+        *pairs = kept;
+    }
+
     /// Whether the open frontier of row `a` comes near the volume of row `b` at all.
     pub(super) fn may_touch(&self, a: u32, b: u32) -> bool {
         let rows = self.scope.placed();
@@ -118,6 +158,9 @@ impl RelativeMap {
         self.volumes[vertex].as_deref().is_some_and(VolumeState::has_open)
     }
 }
+
+/// A way between a pair that is so many times as long as the shortest is as good.
+const NEARLY_SHORTEST: f64 = 1.2;
 
 /// Distances that differ by less are the same, metres: contraction adds lengths in another order.
 const SAME_M: f64 = 1e-9;

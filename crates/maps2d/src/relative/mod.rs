@@ -6,7 +6,7 @@
 //! 2. The scope is gathered: all vertices within the radius of the root along the graph, each placed
 //!    along its shortest path (`posegraph::Scope`).
 //! 3. Open frontier of either volume of a pair that lies inside the other is closed, in parts where
-//!    need be (`pair`); then what is left along a wall that the other saw (`walls`).
+//!    need be (`pair`, `inside`); then what is left along a wall that the other saw (`walls`).
 //! 4. Which pairs: a new volume, those with itself; a place edge, those whose shortest path it
 //!    changes (`incremental`).
 //! 5. A withdrawn place edge opens again exactly what relied on it (`withdraw`).
@@ -30,6 +30,7 @@ mod chains;
 mod events;
 mod incremental;
 mod insert;
+mod inside;
 mod last_look;
 mod map;
 mod pair;

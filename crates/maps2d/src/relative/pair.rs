@@ -1,22 +1,21 @@
 //! Two volumes held against each other: frontier of one inside the other is closed (\[ISRR19\] 4.3).
 
-use geometry::planar::{Interval, box_gap};
+use geometry::planar::Interval;
 use pose::Se2;
 use probe::VertexId;
 
-use super::walls::{ROUNDING_M, WallRule, spans_along_walls, spans_given_up};
-use super::{Cause, Certainty, Closing, ConsolidationEvent, RelativeMap, VolumeState};
+use super::inside::{placements, spans_inside};
+use super::walls::{WallRule, spans_along_walls, spans_given_up};
+use super::{Cause, Closing, ConsolidationEvent, RelativeMap, VolumeState};
 use crate::MapProbe;
-use crate::volume::LocalVolume;
-
-/// A way between a pair that is so many times as long as the shortest is as good.
-const NEARLY_SHORTEST: f64 = 1.2;
 
 /// Memory that comparisons reuse.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Work {
     /// Pairs to compare: rows of the scope, the volume whose frontier is looked at first.
     pub pairs: Vec<(u32, u32)>,
+    /// For each of them, whether nothing that is open comes near the other volume, nor its walls.
+    far: Vec<bool>,
     /// Parts to close: frontier edge and stretch.
     spans: Vec<(usize, Interval)>,
     clipped: Vec<Interval>,
@@ -37,14 +36,21 @@ impl RelativeMap {
     /// work, and the new ones can be retired.
     pub(super) fn consolidate(&mut self, probe: &mut dyn MapProbe) {
         let mut pairs = std::mem::take(&mut self.work.pairs);
+        self.drop_longer_ways(&mut pairs);
         let rows = self.scope.placed();
         pairs.sort_unstable_by_key(|&(target, source)| (rows[source as usize].vertex, target));
         self.work.touched.clear();
+        let mut far = std::mem::take(&mut self.work.far);
+        far.clear();
+        far.resize(pairs.len(), false);
         for cause in [Cause::Inside, Cause::Wall, Cause::Unreachable] {
-            for &(target, source) in &pairs {
-                self.compare(target as usize, source as usize, cause, probe);
+            for (&(target, source), far) in pairs.iter().zip(&mut far) {
+                if cause != Cause::Wall || !*far {
+                    *far = self.compare(target as usize, source as usize, cause, probe);
+                }
             }
         }
+        self.work.far = far;
         self.work.pairs = pairs;
         self.measure_touched();
     }
@@ -94,19 +100,27 @@ impl RelativeMap {
     }
 
     /// Closes what of the open frontier of row `target` the volume of row `source` accounts for.
-    fn compare(&mut self, target: usize, source: usize, cause: Cause, probe: &mut dyn MapProbe) {
+    /// Returns whether that was found to be too far from all of it, walls included.
+    fn compare(
+        &mut self,
+        target: usize,
+        source: usize,
+        cause: Cause,
+        probe: &mut dyn MapProbe,
+    ) -> bool {
         let rows = self.scope.placed();
         let (at, against) = (rows[target].vertex, rows[source].vertex);
         let at_from_against =
             rows[target].root_from_vertex.inverse_mul(&rows[source].root_from_vertex);
         if at == against && cause != Cause::Unreachable {
-            return;
+            return false;
         }
         if !self.volumes[at].as_deref().is_some_and(VolumeState::has_open) {
-            return;
+            return false;
         }
         // The volume at hand is taken out of the map while the other is read.
-        let Some(mut state) = self.volumes[at].take() else { return };
+        let Some(mut state) = self.volumes[at].take() else { return false };
+        let mut far = false;
         let own;
         let other = if at == against {
             own = state.clone();
@@ -128,7 +142,8 @@ impl RelativeMap {
                     let mut poses = std::mem::take(&mut self.work.placements);
                     placements(&at_from_against, odometry_m, certainty, &mut poses);
                     let clipped = &mut self.work.clipped;
-                    spans_inside(&state, &other.volume, &poses, clipped, &mut spans);
+                    let wall_m = self.params.wall_closing_m;
+                    far = spans_inside(&state, &other.volume, &poses, wall_m, clipped, &mut spans);
                     self.work.placements = poses;
                 }
                 Cause::Wall => {
@@ -144,31 +159,13 @@ impl RelativeMap {
             let closes = |(edge, span): &(usize, Interval)| {
                 state.ledgers[*edge].open().any(|open| open.overlap(span).is_some())
             };
-            if spans.iter().any(closes) && self.way_may_decide(target, source) {
+            if spans.iter().any(closes) {
                 self.close(&mut state, target, source, cause, &at_from_against, &spans, probe);
             }
             self.work.spans = spans;
         }
         self.volumes[at] = Some(state);
-    }
-
-    /// Whether the way between two rows through the scope at hand may decide: no other is clearly shorter,
-    /// or more certainty is asked of it than at a last look.
-    ///
-    /// Where both are recognised from a new vertex that is off the way between them, their poses by way
-    /// of it are worse than those that they were held against each other with.
-    fn way_may_decide(&mut self, target: usize, source: usize) -> bool {
-        let rows = self.scope.placed();
-        // Where more is asked of placement than at a last look, that decides: the longer way may have
-        // less odometry, and be the surer one.
-        let decides = self.params.certainty.sigmas > self.params.last_look_sigmas;
-        if target == 0 || source == 0 || decides {
-            return true;
-        }
-        let (a, b) = (rows[target], rows[source]);
-        let limit_m = (a.distance_m + b.distance_m) / NEARLY_SHORTEST;
-        let walked = if self.scope_is_full { &self.full } else { &self.skeleton };
-        self.scratch.distance_within(walked, a.vertex, b.vertex, limit_m).is_none()
+        far
     }
 
     /// Writes stretches into the ledgers of `state`, remembers the path, and tells.
@@ -224,83 +221,6 @@ impl RelativeMap {
                 volume_from_against: *at_from_against,
                 closed_m,
             });
-        }
-    }
-}
-
-/// The stretches of open frontier of `state` that lie strictly inside `other`, under each of the
-/// placements.
-///
-/// Whole edges are clipped, not their open parts, so that a stretch does not depend on what was
-/// closed before. Only edges near the disc around what is open are looked at.
-pub(super) fn spans_inside(
-    state: &VolumeState,
-    other: &LocalVolume,
-    placements: &[Se2],
-    clipped: &mut Vec<Interval>,
-    spans: &mut Vec<(usize, Interval)>,
-) {
-    let (centre, open_m) = state.open_disc;
-    let open_m = open_m + ROUNDING_M;
-    let reach_m = open_m + other.inner.outer_radius();
-    if placements[0].transform(&centre).coords.norm_squared() > reach_m * reach_m {
-        return;
-    }
-    let mut common: Vec<Interval> = Vec::new();
-    for (edge, ledger) in state.ledgers.iter().enumerate() {
-        if ledger.is_closed() {
-            continue;
-        }
-        let frontier = &state.volume.frontier[edge];
-        if box_gap(&frontier.from, &frontier.to, &centre, &centre) > open_m {
-            continue;
-        }
-        for (i, other_from_at) in placements.iter().enumerate() {
-            clipped.clear();
-            other.inner.clip(
-                &other_from_at.transform(&frontier.from),
-                &other_from_at.transform(&frontier.to),
-                clipped,
-            );
-            if i == 0 {
-                common.clone_from(clipped);
-            } else {
-                common = shared(&common, clipped);
-            }
-            if common.is_empty() {
-                break;
-            }
-        }
-        spans.extend(common.iter().map(|&span| (edge, span)));
-    }
-}
-
-/// What two sorted lists of disjoint stretches have in common.
-fn shared(a: &[Interval], b: &[Interval]) -> Vec<Interval> {
-    a.iter().flat_map(|x| b.iter().filter_map(|y| x.overlap(y))).collect()
-}
-
-/// `other_from_at` as estimated, and as it would be were the odometry in between wrong by the named
-/// number of standard deviations.
-pub(super) fn placements(
-    at_from_other: &Se2,
-    odometry_m: f64,
-    certainty: &Certainty,
-    out: &mut Vec<Se2>,
-) {
-    let other_from_at = at_from_other.inverse();
-    out.clear();
-    out.push(other_from_at);
-    let root = certainty.sigmas * odometry_m.max(0.0).sqrt();
-    let (shift_m, turn_rad) =
-        (root * certainty.sigma_translation, root * certainty.sigma_rotation_rad);
-    if turn_rad > 0.0 {
-        out.push(Se2::from_angle(turn_rad) * other_from_at);
-        out.push(Se2::from_angle(-turn_rad) * other_from_at);
-    }
-    if shift_m > 0.0 {
-        for (x_m, y_m) in [(shift_m, 0.0), (-shift_m, 0.0), (0.0, shift_m), (0.0, -shift_m)] {
-            out.push(Se2::new(x_m, y_m, 0.0) * other_from_at);
         }
     }
 }

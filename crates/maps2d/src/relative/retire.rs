@@ -38,7 +38,7 @@ use posegraph::Scope;
 use probe::VertexId;
 
 use super::incremental::Changed;
-use super::pair::{placements, spans_inside};
+use super::inside::{placements, spans_inside};
 use super::state::disc_around;
 use super::walls::{WallRule, spans_along_walls};
 use super::{Cause, Closing, ConsolidationEvent, RelativeMap, VolumeState};
@@ -169,11 +169,16 @@ impl RelativeMap {
             let of_from_helper = placed.root_from_vertex;
             placements(&of_from_helper, placed.odometry_m, &self.params.certainty, &mut poses);
             spans.clear();
+            let mut far = false;
             if !helper.blocked {
-                spans_inside(state, &helper.volume, &poses, &mut clipped, &mut spans);
+                let wall_m = self.params.wall_closing_m;
+                let volume = &helper.volume;
+                far = spans_inside(state, volume, &poses, wall_m, &mut clipped, &mut spans);
             }
-            let rule = WallRule::over(placed.odometry_m, &self.params);
-            spans_along_walls(state, &helper.volume, &of_from_helper, rule, &mut spans);
+            if !far {
+                let rule = WallRule::over(placed.odometry_m, &self.params);
+                spans_along_walls(state, &helper.volume, &of_from_helper, rule, &mut spans);
+            }
             for &(edge, span) in &spans {
                 opened.clear();
                 state.ledgers[edge].close(span, &reason, &mut opened);

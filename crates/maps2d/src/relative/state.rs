@@ -1,7 +1,7 @@
 //! One volume with what has become of its frontier.
 
 use geometry::Point2;
-use geometry::planar::{EdgeLedger, point_segment_distance};
+use geometry::planar::{EdgeLedger, Interval, point_segment_distance};
 
 use probe::VertexId;
 
@@ -11,6 +11,17 @@ use crate::volume::{LocalVolume, Samples};
 
 /// A sliver that is held counts until it is shorter than this share of the length of a sliver.
 const HELD_SHARE: f64 = 0.1;
+
+/// An open part of a frontier edge, anchor frame.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct OpenPart {
+    /// Index into [`LocalVolume::frontier`].
+    pub edge: usize,
+    /// Where it starts.
+    pub from: Point2,
+    /// Where it ends.
+    pub to: Point2,
+}
 
 /// A volume of the map, its ledgers, and what they come to.
 #[derive(Clone, Debug)]
@@ -23,6 +34,8 @@ pub struct VolumeState {
     pub ledgers: Vec<EdgeLedger<Closing>>,
     /// The open parts that hang together.
     pub chains: Vec<Chain>,
+    /// The same open parts by edge: where they are, and nothing else, for comparisons to run over.
+    pub(super) open: Vec<OpenPart>,
     /// A disc around all that is open, anchor frame: centre and radius, metres.
     pub open_disc: (Point2, f64),
     /// Length of the chains that count, metres.
@@ -58,6 +71,7 @@ impl VolumeState {
             samples,
             ledgers,
             chains: Vec::new(),
+            open: Vec::new(),
             open_disc: (Point2::origin(), 0.0),
             open_m: 0.0,
             sliver_m: 0.0,
@@ -94,6 +108,13 @@ impl VolumeState {
     /// Measures the ledgers anew.
     pub(crate) fn measure(&mut self, sliver_m: f64) {
         self.chains = chains(&self.volume, &self.ledgers);
+        self.open.clear();
+        for (edge, ledger) in self.ledgers.iter().enumerate() {
+            let frontier = &self.volume.frontier[edge];
+            let at = |span: Interval| (frontier.at(span.from), frontier.at(span.to));
+            let parts = ledger.open().map(at).map(|(from, to)| OpenPart { edge, from, to });
+            self.open.extend(parts);
+        }
         self.open_disc = self.disc_around_open();
         self.open_m = 0.0;
         self.sliver_m = 0.0;
@@ -133,6 +154,7 @@ impl VolumeState {
         self.volume.heap_bytes()
             + self.closed_in.capacity() * size_of::<VertexId>()
             + self.samples.len() * (size_of::<crate::volume::Sample>() + 1)
+            + self.open.capacity() * size_of::<OpenPart>()
             + self.ledgers.len() * size_of::<EdgeLedger<Closing>>()
             + closings * size_of::<geometry::planar::Closed<Closing>>()
             + self

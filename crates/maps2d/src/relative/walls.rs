@@ -52,8 +52,8 @@ impl WallRule {
 /// Under drift the frontier bits that touch a wall are never quite inside another volume; without
 /// this rule they would stay for ever. Not in \[ISRR19\], which leaves it open.
 ///
-/// The disc around what is open has to be that of the ledgers. Cost: the solid parts of `other`, and
-/// for those near the disc the open edges.
+/// The disc around what is open has to be that of the ledgers. Cost: for each open
+/// edge the solid parts of `other` that lie in its direction.
 pub(super) fn spans_along_walls(
     state: &VolumeState,
     other: &LocalVolume,
@@ -74,31 +74,37 @@ pub(super) fn spans_along_walls(
     if around.distance_squared_to_origin() > other.radius_m() * other.radius_m() {
         return;
     }
-    let posts = other.posts.iter().map(|post| (*post, *post));
-    let solid = other.obstacles.iter().map(|wall| (wall.from, wall.to)).chain(posts);
-    let solid: Vec<(Point2, Point2)> = solid.filter(|(a, b)| around.meets(a, b)).collect();
-    if solid.is_empty() {
-        return;
-    }
-    for (edge, ledger) in state.ledgers.iter().enumerate() {
-        if ledger.is_closed() {
+    let walls = other.obstacles.len();
+    let mut solid: Vec<u32> = Vec::new();
+    let margin_m = radius_m + ROUNDING_M;
+    for part in &state.open {
+        // A wall that is not near what is open closes nothing.
+        if box_gap(&part.from, &part.to, &open_at, &open_at) > open_m {
             continue;
         }
-        let frontier = &state.volume.frontier[edge];
-        if box_gap(&frontier.from, &frontier.to, &open_at, &open_at) > open_m {
+        let (open_from, open_to) =
+            (other_from_at.transform(&part.from), other_from_at.transform(&part.to));
+        other.rim.solid_near(&open_from, &open_to, margin_m, &mut solid);
+        if solid.is_empty() || state.ledgers[part.edge].is_closed() {
             continue;
         }
+        let frontier = &state.volume.frontier[part.edge];
         let from = other_from_at.transform(&frontier.from);
         let to = other_from_at.transform(&frontier.to);
         if !rule.is_sure_at(0.5 * (from.coords + to.coords).norm()) {
             continue;
         }
-        let near = Box2::around(&from, &to, radius_m);
-        for (a, b) in &solid {
-            if near.meets(a, b)
-                && let Some(span) = near_segment(&from, &to, a, b, radius_m)
+        let near = Box2::around(&open_from, &open_to, margin_m);
+        for &number in &solid {
+            let number = number as usize;
+            let (a, b) = match other.obstacles.get(number) {
+                Some(wall) => (wall.from, wall.to),
+                None => (other.posts[number - walls], other.posts[number - walls]),
+            };
+            if near.meets(&a, &b)
+                && let Some(span) = near_segment(&from, &to, &a, &b, radius_m)
             {
-                spans.push((edge, span));
+                spans.push((part.edge, span));
             }
         }
     }

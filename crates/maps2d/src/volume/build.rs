@@ -4,7 +4,7 @@ use geometry::Point2;
 use geometry::planar::{PlanarError, StarPolygon};
 use geometry::predicates::orient;
 
-use super::{EdgeKey, FrontierEdge, LocalVolume, ObstacleEdge, Options, Samples};
+use super::{EdgeKey, FrontierEdge, LocalVolume, ObstacleEdge, Options, Rim, Samples};
 
 /// How samples become a volume.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -85,7 +85,8 @@ pub fn build(samples: &Samples, params: &VolumeParams) -> Result<LocalVolume, Pl
     let polygon = StarPolygon::try_new(vertices, gap_after)?;
     let inner = polygon.shrunk(params.strict_margin_m);
     let (frontier, obstacles) = label(&polygon, &solid_after);
-    Ok(LocalVolume { polygon, inner, frontier, obstacles, posts })
+    let rim = Rim::new(&polygon, &obstacles, &posts);
+    Ok(LocalVolume { polygon, inner, frontier, obstacles, posts, rim })
 }
 
 /// Whether `b` lies counter-clockwise of `a`, by less than half a turn.

@@ -6,6 +6,7 @@ use geometry::Point2;
 use geometry::planar::StarPolygon;
 use geometry::planar::{box_gap, point_segment_distance, segment_segment_distance};
 
+use super::Rim;
 use crate::Clearance;
 
 /// Which boundary edge of a volume: a chord, or one of the two spokes of a gap.
@@ -70,6 +71,8 @@ pub struct LocalVolume {
     pub obstacles: Vec<ObstacleEdge>,
     /// Hits that bound no obstacle edge, such as a lone thin post; anchor frame.
     pub posts: Vec<Point2>,
+    /// All of these by direction.
+    pub(crate) rim: Rim,
 }
 
 impl LocalVolume {
@@ -81,6 +84,7 @@ impl LocalVolume {
             frontier: Vec::new(),
             obstacles: Vec::new(),
             posts: Vec::new(),
+            rim: Rim::empty(),
         }
     }
 
@@ -185,5 +189,6 @@ impl LocalVolume {
             + self.frontier.capacity() * size_of::<FrontierEdge>()
             + self.obstacles.capacity() * size_of::<ObstacleEdge>()
             + self.posts.capacity() * size_of::<Point2>()
+            + self.rim.heap_bytes()
     }
 }

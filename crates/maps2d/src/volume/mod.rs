@@ -6,7 +6,7 @@
 //! 3. Options of \[Zie18\] 2.4: samples that lie close together are thinned, and a vertex is put into
 //!    each edge that spans an occlusion ([`options`]).
 //! 4. Samples become the vertices of a star polygon, its edges are labelled obstacle or frontier
-//!    (`build`).
+//!    (`build`), and what bounds it is indexed by direction (`rim`).
 //!
 //! A volume never changes after it is built; what becomes of its frontier edges is kept in their
 //! ledgers by the map.
@@ -15,6 +15,7 @@ pub mod build;
 mod events;
 mod local;
 pub mod options;
+mod rim;
 pub mod samples;
 
 pub use build::{VolumeParams, build};
@@ -22,4 +23,5 @@ pub use events::VolumeEvent;
 pub(crate) use events::tell_of_volume;
 pub use local::{EdgeKey, FrontierEdge, LocalVolume, ObstacleEdge};
 pub use options::{OcclusionRule, Options};
+pub(crate) use rim::Rim;
 pub use samples::{Sample, Samples};

@@ -221,6 +221,33 @@ impl ScopeScratch {
         nearest.ok()?.goal.map(|goal| goal.cost)
     }
 
+    /// Lengths of the shortest paths from a vertex to others where they are at most `limit_m`, in the
+    /// order of `others`; replaces what `out` holds.
+    ///
+    /// Cost: one search, which ends with the farthest of them.
+    pub fn distances_within<P: RelativePose>(
+        &mut self,
+        skeleton: &Skeleton<P>,
+        from: VertexId,
+        others: &[VertexId],
+        limit_m: f64,
+        out: &mut Vec<Option<f64>>,
+    ) {
+        let mut waited: Vec<VertexId> = others.to_vec();
+        waited.sort_unstable();
+        waited.dedup();
+        let mut left = waited.len();
+        let is_last = |node: VertexId| {
+            left -= usize::from(waited.binary_search(&node).is_ok());
+            left == 0
+        };
+        let ways = Ways::by_length(skeleton);
+        let found = dijkstra_nearest(&ways, from, limit_m, is_last, &mut self.search).ok();
+        let tree = found.map(|found| found.tree);
+        out.clear();
+        out.extend(others.iter().map(|other| tree.as_ref()?.cost(*other)));
+    }
+
     /// The shortest way to drive, of at most `limit_m`, from `root` to a vertex that satisfies `is_goal`: the vertices
     /// after the root, in driving order, each with the length of the link that leads to it.
     ///
