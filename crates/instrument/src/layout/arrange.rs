@@ -83,6 +83,13 @@ impl Layout<'_> {
         Ok(Written(path))
     }
 
+    /// Gives a container the name that its tab shows.
+    pub fn named(&self, container: Written, name: &str) -> RecordingStreamResult<Written> {
+        let blueprint = archetypes::ContainerBlueprint::update_fields().with_display_name(name);
+        self.stream.log(container.0.as_str(), &blueprint)?;
+        Ok(container)
+    }
+
     /// Writes what is around the last container, which holds everything.
     pub fn finish(&self, timeline: &str, fps: f64, follow: bool) -> RecordingStreamResult<()> {
         let root = rerun::datatypes::Uuid { bytes: uuid(self.count).1 };

@@ -11,6 +11,9 @@ use super::views::bounds;
 use crate::recording::{ABOUT, CONFIG, RESULT};
 use crate::{Centre, MapOptions, ReplayOptions};
 
+/// As many maps side by side as can be looked at.
+const SIDE_BY_SIDE: usize = 3;
+
 /// Sends the layout: three pictures above, what the maps believe below; text, the last match, plots and
 /// events on the right.
 pub(crate) fn send_replay(stream: &RecordingStream, options: &ReplayOptions) -> Result<(), String> {
@@ -23,13 +26,12 @@ pub(crate) fn send_replay(stream: &RecordingStream, options: &ReplayOptions) -> 
         let left = if maps.is_empty() {
             pictures
         } else {
-            // As many side by side as can be looked at.
-            let rest = maps.split_off(maps.len().min(3));
-            let mut below =
-                vec![layout.container(ContainerKind::Horizontal, &maps, &vec![1.0; maps.len()])?];
-            if !rest.is_empty() {
-                let shares = vec![1.0; rest.len()];
-                below.push(layout.container(ContainerKind::Horizontal, &rest, &shares)?);
+            let mut below = Vec::new();
+            for (row, kinds) in maps.chunks(SIDE_BY_SIDE).zip(options.maps.chunks(SIDE_BY_SIDE)) {
+                let shares = vec![1.0; row.len()];
+                let kinds: Vec<&str> = kinds.iter().map(|map| map.name.as_str()).collect();
+                let row = layout.container(ContainerKind::Horizontal, row, &shares)?;
+                below.push(layout.named(row, &kinds.join(", "))?);
             }
             // One row needs no tabs.
             let below = match <[Written; 1]>::try_from(below) {
