@@ -81,9 +81,10 @@ impl Probe<BooleanEvent<'_>> for BooleanRecording {
                 let ends: Vec<_> = curve.iter().map(|edge| edge.ends).collect();
                 stage.lines("curve", &ends, rgb(255, 255, 255), 1.5);
             }
-            BooleanEvent::Settled { faces } => {
+            BooleanEvent::Settled { mesh, faces } => {
                 stage
                     .event(variant, format_args!("{} frontier faces became obstacle", faces.len()));
+                stage.labelled("labels/a", mesh);
             }
             BooleanEvent::Cleaned { mesh, removed, undone } => {
                 stage.event(

@@ -137,7 +137,7 @@ impl Probe<BooleanEvent<'_>> for Settled {
     }
 
     fn emit(&mut self, event: BooleanEvent<'_>) {
-        if let BooleanEvent::Settled { faces } = event {
+        if let BooleanEvent::Settled { faces, .. } = event {
             self.0 += faces.len();
         }
     }

@@ -1,7 +1,8 @@
-//! Step 3: where faces coincide, the obstacle wins.
+//! Step 5, last part: where faces coincide, the obstacle wins.
 
+use super::covered::{border_m, cut};
 use crate::bvh::{Aabb, Bvh};
-use crate::{Label, Point3, Polyhedron};
+use crate::{Label, Point3, Polyhedron, Vector3};
 
 /// Faces nearer than this coincide, metres: ten times the jitter.
 pub const COINCIDENT_M: f64 = 1e-7;
@@ -9,9 +10,15 @@ pub const COINCIDENT_M: f64 = 1e-7;
 /// How much the cosine of the angle between the normals of coincident faces may fall short of 1.
 const PARALLEL: f64 = 1e-6;
 
+/// An obstacle face, and the way that it looks.
+struct Face<'a> {
+    corners: [&'a Point3; 3],
+    looks: Vector3,
+}
+
 /// The obstacle faces of several meshes, to be found by place.
 pub(super) struct Obstacles<'a> {
-    faces: Vec<(&'a Polyhedron, usize, f64)>,
+    faces: Vec<Face<'a>>,
     tree: Bvh,
 }
 
@@ -22,72 +29,86 @@ impl<'a> Obstacles<'a> {
         for &(mesh, sense) in meshes {
             let labels = mesh.labels().iter().enumerate();
             let obstacle = labels.filter(|&(_, &label)| label == Label::Obstacle);
-            faces.extend(obstacle.map(|(face, _)| (mesh, face, sense)));
+            faces.extend(obstacle.filter_map(|(face, _)| {
+                let looks = mesh.scaled_normal(face).try_normalize(0.0)? * sense;
+                Some(Face { corners: mesh.corners(face), looks })
+            }));
         }
-        let around =
-            |&(mesh, face, _): &(&Polyhedron, usize, f64)| Aabb::around(mesh.corners(face));
-        let boxes: Vec<Aabb> = faces.iter().map(around).collect();
+        let boxes: Vec<Aabb> = faces.iter().map(|face| Aabb::around(face.corners)).collect();
         Self { tree: Bvh::new(&boxes), faces }
+    }
+
+    /// Calls `found` with the corners of each obstacle face whose box comes within `eps_m` of that of
+    /// `points` and that looks the way of `normal`, of length 1.
+    pub(super) fn each_near<'b>(
+        &self,
+        points: impl IntoIterator<Item = &'b Point3>,
+        normal: &Vector3,
+        eps_m: f64,
+        mut found: impl FnMut([&'a Point3; 3]),
+    ) {
+        self.tree.each_touching(&Aabb::around(points).grown(eps_m), |index| {
+            let face = &self.faces[index as usize];
+            if face.looks.dot(normal) > 1.0 - PARALLEL {
+                found(face.corners);
+            }
+        });
     }
 
     /// Whether the middle of a face lies on an obstacle face that looks the same way.
     fn coincides(&self, mesh: &Polyhedron, face: usize, eps_m: f64) -> bool {
-        let [a, b, c] = mesh.corners(face);
+        let corners = mesh.corners(face);
+        let [a, b, c] = corners;
         let middle = Point3::from((a.coords + b.coords + c.coords) / 3.0);
         let Some(normal) = mesh.scaled_normal(face).try_normalize(0.0) else { return false };
+        let border = border_m(eps_m, middle.coords.amax());
         let mut found = false;
-        self.tree.each_touching(&Aabb::around([&middle]).grown(eps_m), |index| {
-            let (other, of, sense) = self.faces[index as usize];
-            found = found || {
-                let theirs = other.scaled_normal(of).try_normalize(0.0);
-                theirs.is_some_and(|theirs| {
-                    sense * theirs.dot(&normal) > 1.0 - PARALLEL
-                        && lies_on(&middle, other.corners(of), &theirs, eps_m)
-                })
-            };
+        self.each_near([&middle], &normal, eps_m, |other| {
+            found = found || lies_on(&middle, other, eps_m, border);
         });
         found
     }
 }
 
-/// Whether a point is at most `eps_m` from a triangle's plane and from the inside of its sides.
-fn lies_on(p: &Point3, corners: [&Point3; 3], normal: &crate::Vector3, eps_m: f64) -> bool {
-    (p - corners[0]).dot(normal).abs() <= eps_m
+/// Whether a point is at most `eps_m` from a triangle's plane, and at most `border_m` outside of its
+/// sides.
+fn lies_on(p: &Point3, corners: [&Point3; 3], eps_m: f64, border_m: f64) -> bool {
+    let [a, b, c] = corners;
+    let Some(normal) = (b - a).cross(&(c - a)).try_normalize(0.0) else { return false };
+    (p - a).dot(&normal).abs() <= eps_m
         && (0..3).all(|i| {
             let side = corners[(i + 1) % 3] - corners[i];
             let inward = normal.cross(&side);
-            (p - corners[i]).dot(&inward) >= -eps_m * inward.norm()
+            (p - corners[i]).dot(&inward) >= -border_m * inward.norm()
         })
 }
 
-/// The labels of `mesh` after the rule, and the faces that it changed, ascending.
+/// The mesh after the last part of the rule, and the faces of it that became obstacle, ascending.
 pub(super) fn settle(
-    mesh: &Polyhedron,
+    mesh: Polyhedron,
     obstacles: &Obstacles<'_>,
     eps_m: f64,
-) -> (Vec<Label>, Vec<u32>) {
+) -> (Polyhedron, Vec<u32>) {
     let mut labels = mesh.labels().to_vec();
     let mut changed = Vec::new();
     for (face, label) in labels.iter_mut().enumerate() {
-        if *label == Label::Frontier && obstacles.coincides(mesh, face, eps_m) {
+        if *label == Label::Frontier && obstacles.coincides(&mesh, face, eps_m) {
             *label = Label::Obstacle;
             changed.push(face as u32);
         }
     }
-    (labels, changed)
+    let (vertices, faces, _, origins) = mesh.into_parts();
+    (Polyhedron::from_sound_parts(vertices, faces, labels, origins), changed)
 }
 
-/// The mesh with every frontier face made obstacle whose middle lies within `eps_m` of an obstacle
-/// face of one of `views` that looks the same way.
+/// The mesh with frontier made obstacle where it lies within `eps_m` of an obstacle face of one of
+/// `views` that looks the same way.
 ///
-/// Neither vertices nor faces change. O((f + v) log v) for f faces of the mesh and v of the views.
+/// A frontier face that is covered in part is cut along the border of the covered part, to
+/// `eps_m / 1000`, and so are its neighbours where the border meets their edges: what was a closed
+/// 2-manifold stays one. O((f + v) log v) for f faces of the mesh and v of the views, and what is cut.
 pub fn obstacle_wins(mesh: &Polyhedron, views: &[Polyhedron], eps_m: f64) -> Polyhedron {
     let views: Vec<_> = views.iter().map(|view| (view, 1.0)).collect();
-    let (labels, _) = settle(mesh, &Obstacles::of(&views), eps_m);
-    relabelled(mesh.clone(), labels)
-}
-
-pub(super) fn relabelled(mesh: Polyhedron, labels: Vec<Label>) -> Polyhedron {
-    let (vertices, faces, _, origins) = mesh.into_parts();
-    Polyhedron::from_sound_parts(vertices, faces, labels, origins)
+    let obstacles = Obstacles::of(&views);
+    settle(cut(mesh.clone(), &obstacles, eps_m), &obstacles, eps_m).0
 }

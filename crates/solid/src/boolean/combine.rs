@@ -1,9 +1,14 @@
-//! Steps 2 to 5: two operands made one.
+//! Steps 2 to 6: two operands made one.
 
 use probe::{Off, Probe};
 
-use super::coincide::{Obstacles, relabelled, settle};
+use super::attempt::{apart, attempt};
+use super::coincide::{Obstacles, settle};
+use super::covered::cut;
+use super::jitter::grown;
+use super::leaves::tidied;
 use super::tags::Tags;
+use super::touching::conforming;
 use super::{
     BooleanEvent, COINCIDENT_M, Combined, CurveEdge, Kernel, ManifoldKernel, Operation, Provenance,
     Refusal,
@@ -14,8 +19,11 @@ use crate::reduce::{Cleaned, clean};
 use crate::validity::{check_topology, crossings};
 use crate::{Label, Point3, Polyhedron, Solid, SolidError};
 
-/// An intersection with less than this share of the volume of the union is a leaf.
-const LEAF_SHARE: f64 = 1e-12;
+/// By how many times the jitter grows, one after the other, where the result meets itself.
+const AGAIN: [f64; 4] = [1.0, 10.0, 100.0, 1000.0];
+
+/// Faces coincide within so many times the jitter at least.
+const COINCIDENT_JITTERS: f64 = 10.0;
 
 /// How booleans are done.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -27,11 +35,23 @@ pub struct Options {
     /// Edges no longer than this are drawn together in the end, metres; 0 leaves all as they are. What
     /// is cleaned has no origins.
     pub clean_m: f64,
+    /// How far the faces of the second operand are moved first, metres, so that none is coplanar with one
+    /// of the first: outwards, for an intersection inwards. Where the result still meets itself, ten,
+    /// a hundred and a thousand times as far. 0 moves nothing.
+    pub jitter_m: f64,
+    /// What part of the jitter is by chance depends on this.
+    pub seed: u64,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Self { provenance: Provenance::Labels, coincident_m: COINCIDENT_M, clean_m: 0.0 }
+        Self {
+            provenance: Provenance::Labels,
+            coincident_m: COINCIDENT_M,
+            clean_m: 0.0,
+            jitter_m: 0.0,
+            seed: 1,
+        }
     }
 }
 
@@ -51,7 +71,8 @@ pub fn boolean(
 /// Combines two closed 2-manifolds, oriented outward, in one frame, and tells `probe` about it.
 ///
 /// The result is a closed 2-manifold by index, perhaps empty. Labels and origins are those of the
-/// operands' faces; frontier that coincides with obstacle is obstacle. O(n log n) for n faces of both.
+/// operands' faces; frontier that coincides with obstacle is obstacle, where it does. O(n log n) for n
+/// faces of both.
 ///
 /// # Errors
 /// [`SolidError::Operand`] where an operand is no closed 2-manifold, with its first defect.
@@ -78,56 +99,73 @@ pub fn boolean_by<K: Kernel>(
     probe: &mut impl for<'x> Probe<BooleanEvent<'x>>,
 ) -> Result<Polyhedron, SolidError> {
     probe.emit(BooleanEvent::Started { operation, a, b });
-    let mut tags = Tags::new(options.provenance);
-    let (tags_a, tags_b) = (tags.of(a), tags.of(b));
-    let taken_a = kernel.take(a, &tags_a).map_err(|why| refused("first", a, why))?;
-    let taken_b = kernel.take(b, &tags_b).map_err(|why| refused("second", b, why))?;
-    let failed =
-        |Refusal(reason): Refusal| SolidError::Engine { operation: operation.name(), reason };
-    let done = |operation| kernel.combine(&taken_a, &taken_b, operation).map_err(failed);
-    let mesh = if operation == Operation::SymmetricDifference {
-        let other = kernel.combine(&taken_b, &taken_a, Operation::Difference).map_err(failed)?;
-        let both = side_by_side(kernel.give(&done(Operation::Difference)?), kernel.give(&other));
-        let both = labelled(both, &tags, operation.name())?;
-        // Operands that share a part of their surface leave it twice.
-        if crossings(&both, 1).is_empty() {
-            both
-        } else {
-            let (all, common) = (done(Operation::Union)?, done(Operation::Intersection)?);
-            let rest = kernel.combine(&all, &common, Operation::Difference).map_err(failed)?;
-            let mesh = |taken| labelled(kernel.give(taken), &tags, operation.name());
-            let (rest, all, common) = (mesh(&rest)?, mesh(&all)?, mesh(&common)?);
-            // Operands that only touch have leaves without volume in common, which cut nothing out.
-            let touch = common.volume_m3().abs() <= LEAF_SHARE * all.volume_m3();
-            if crossings(&rest, 1).is_empty() {
-                rest
-            } else if touch && crossings(&all, 1).is_empty() {
-                all
-            } else {
-                both
-            }
+    let tried: &[f64] = if options.jitter_m > 0.0 { &AGAIN } else { &[0.0] };
+    let mut chosen = None;
+    for times in tried {
+        let jitter_m = times * options.jitter_m;
+        let mesh = once(kernel, a, b, operation, options, jitter_m)?;
+        let coincident_m = options.coincident_m.max(COINCIDENT_JITTERS * jitter_m);
+        let last = chosen.insert((mesh, coincident_m));
+        let (mesh, coincident_m) = (last.0.clone(), last.1);
+        if jitter_m == 0.0
+            || crossings(&settled(mesh, &looking(a, b, operation), coincident_m, &mut Off), 1)
+                .is_empty()
+        {
+            break;
         }
-    } else {
-        labelled(kernel.give(&done(operation)?), &tags, operation.name())?
-    };
+    }
+    let (mesh, coincident_m) = chosen.unwrap_or((Polyhedron::empty(), options.coincident_m));
     if probe.on() {
         tell_combined(&mesh, a, b, probe);
     }
-    // In a difference the faces of the second operand look the other way.
-    let mut looking = vec![(a, 1.0)];
-    if operation != Operation::Difference {
-        looking.push((b, 1.0));
-    }
-    if matches!(operation, Operation::Difference | Operation::SymmetricDifference) {
-        looking.push((b, -1.0));
-    }
-    if operation == Operation::SymmetricDifference {
-        looking.push((a, -1.0));
-    }
-    let mesh = settled(mesh, &looking, options.coincident_m, probe);
+    let mesh = settled(mesh, &looking(a, b, operation), coincident_m, probe);
     let mesh = cleaned(mesh, options.clean_m, probe);
     probe.emit(BooleanEvent::Finished { mesh: &mesh });
     Ok(mesh)
+}
+
+/// Steps 1 to 4, the second operand moved by `jitter_m`.
+fn once<K: Kernel>(
+    kernel: &K,
+    a: &Polyhedron,
+    b: &Polyhedron,
+    operation: Operation,
+    options: &Options,
+    jitter_m: f64,
+) -> Result<Polyhedron, SolidError> {
+    let mut tags = Tags::new(options.provenance);
+    let (tags_a, tags_b) = (tags.of(a), tags.of(b));
+    let take_a = || kernel.take(a, &tags_a).map_err(|why| refused("first", a, why));
+    let take_b = |by_m: f64| {
+        let moved = (by_m != 0.0).then(|| grown(b, options.seed, by_m));
+        kernel.take(moved.as_ref().unwrap_or(b), &tags_b).map_err(|why| refused("second", b, why))
+    };
+    let taken_a = take_a()?;
+    // So that what coincides is on one side all over, and what only touches does not, or overlaps
+    // where that leaves no sheet.
+    let taken_b = match operation {
+        Operation::Intersection => take_b(-jitter_m)?,
+        _ => take_b(jitter_m)?,
+    };
+    if operation == Operation::SymmetricDifference && jitter_m > 0.0 {
+        let smaller_b = take_b(-jitter_m)?;
+        return apart(kernel, [(&taken_a, &taken_b), (&smaller_b, &taken_a)], &tags, operation);
+    }
+    attempt(kernel, &taken_a, &taken_b, operation, &tags)
+}
+
+/// The operands, and which way their faces look in the result.
+fn looking<'a>(
+    a: &'a Polyhedron,
+    b: &'a Polyhedron,
+    operation: Operation,
+) -> Vec<(&'a Polyhedron, f64)> {
+    // In a difference the faces of the second operand look the other way.
+    match operation {
+        Operation::Union | Operation::Intersection => vec![(a, 1.0), (b, 1.0)],
+        Operation::Difference => vec![(a, 1.0), (b, -1.0)],
+        Operation::SymmetricDifference => vec![(a, 1.0), (b, 1.0), (b, -1.0), (a, -1.0)],
+    }
 }
 
 /// Tells where each face of a result comes from, and where the operands meet.
@@ -142,27 +180,26 @@ pub(super) fn tell_combined(
     probe.emit(BooleanEvent::Combined { mesh, operand_of: &operand_of, curve: &curve });
 }
 
-/// Step 3 of a result; nothing is looked for where there is no frontier, or no obstacle.
+/// Step 5 of a result; what coincides is not looked for where there is no frontier, or no obstacle.
 pub(super) fn settled(
     mesh: Polyhedron,
     looking: &[(&Polyhedron, f64)],
     eps_m: f64,
     probe: &mut impl for<'x> Probe<BooleanEvent<'x>>,
 ) -> Polyhedron {
-    let mut changed = Vec::new();
     let obstacle = |(view, _): &(&Polyhedron, f64)| view.labels().contains(&Label::Obstacle);
-    let mesh = if mesh.labels().contains(&Label::Frontier) && looking.iter().any(obstacle) {
-        let (labels, faces) = settle(&mesh, &Obstacles::of(looking), eps_m);
-        changed = faces;
-        relabelled(mesh, labels)
-    } else {
-        mesh
-    };
-    probe.emit(BooleanEvent::Settled { faces: &changed });
+    let (mesh, changed) =
+        if mesh.labels().contains(&Label::Frontier) && looking.iter().any(obstacle) {
+            let obstacles = Obstacles::of(looking);
+            settle(conforming(cut(mesh, &obstacles, eps_m)), &obstacles, eps_m)
+        } else {
+            (conforming(mesh), Vec::new())
+        };
+    probe.emit(BooleanEvent::Settled { mesh: &mesh, faces: &changed });
     mesh
 }
 
-/// Step 5 of a result.
+/// Step 6 of a result.
 pub(super) fn cleaned(
     mesh: Polyhedron,
     length_m: f64,
@@ -183,8 +220,8 @@ pub(super) fn refused(which: &str, mesh: &Polyhedron, Refusal(engine): Refusal) 
     SolidError::Operand { which: which.to_owned(), defect }
 }
 
-/// Step 4: two meshes with nothing in common but their borders.
-fn side_by_side(mut a: Combined, b: Combined) -> Combined {
+/// Two meshes with nothing in common but their borders.
+pub(super) fn side_by_side(mut a: Combined, b: Combined) -> Combined {
     let first = a.vertices.len() as u32;
     a.vertices.extend(b.vertices);
     a.faces.extend(b.faces.into_iter().map(|face| face.map(|vertex| vertex + first)));
@@ -211,7 +248,7 @@ pub(super) fn labelled(
     }
     let labels = of_faces.iter().map(|&tag| tags.label(tag)).collect();
     let origins = of_faces.iter().map(|&tag| tags.origin(tag)).collect();
-    Ok(Polyhedron::from_sound_parts(vertices, faces, labels, origins))
+    Ok(tidied(Polyhedron::from_sound_parts(vertices, faces, labels, origins)))
 }
 
 /// For each face whether its middle is nearer to the surface of the first operand or of the second.

@@ -33,9 +33,12 @@ pub enum BooleanEvent<'a> {
         /// Where the surfaces of the operands meet.
         curve: &'a [CurveEdge],
     },
-    /// Frontier faces that coincide with obstacle faces were made obstacle.
+    /// Frontier faces that coincide with obstacle faces in part were cut, and what coincides was made
+    /// obstacle.
     Settled {
-        /// The faces, ascending.
+        /// The mesh after it.
+        mesh: &'a Polyhedron,
+        /// The faces of it that became obstacle, ascending.
         faces: &'a [u32],
     },
     /// A pass of cleaning was done.

@@ -3,36 +3,47 @@
 //! | step | file |
 //! |---|---|
 //! | 1. faces are numbered: one number for each label, or for each label and origin | `tags.rs` |
-//! | 2. an engine combines the operands and gives each face the number of the one it is part of | `kernel.rs`, `manifold.rs` |
-//! | 3. numbers become labels and origins again; a frontier face that coincides with an obstacle face of an operand, looking the same way, becomes obstacle | `coincide.rs` |
-//! | 4. the pieces of a symmetric difference are laid side by side; where they share a surface, the intersection is cut out of the union instead | `combine.rs` |
-//! | 5. slivers go, where that is asked for ([`clean`](crate::clean)) | `combine.rs` |
-//! | 6. many views are united one by one, each jittered first where they may be exactly coplanar | `unite.rs`, `jitter.rs` |
+//! | 2. where that is asked for, the faces of the second operand are moved a little, so that none is coplanar with one of the first; by more where the result meets itself | `jitter.rs`, `combine.rs` |
+//! | 3. an engine combines the operands and gives each face the number of the one it is part of; where it leaves a fold, two sheets on each other, another way to the same solid is taken | `kernel.rs`, `manifold.rs`, `attempt.rs` |
+//! | 4. numbers become labels and origins again; parts without volume and flat faces go | `leaves.rs` |
+//! | 5. a frontier face is cut along the borders of what obstacle faces of the operands, looking the same way, cover of it; edges and faces are divided where vertices lie on them; pieces of frontier that coincide with obstacle become obstacle | `covered.rs`, `touching.rs`, `coincide.rs`, `surgery.rs` |
+//! | 6. slivers go, where that is asked for ([`clean`](crate::clean)) | `combine.rs` |
+//! | 7. many views are united one by one, each jittered first where they may be exactly coplanar | `unite.rs`, `jitter.rs` |
 //!
 //! **Engine.** [`ManifoldKernel`] is `manifold-rust`, its exact engine by name: a port of Manifold,
 //! which decides intersections by symbolic perturbation and so always gives a 2-manifold. Geometry is
-//! right to about 1e-12 of the size of the operands; where faces are coplanar to rounding, the result
-//! may intersect itself by as little. [`jittered`] moves the vertices of each view by 1e-8 m, seeded by
-//! the view, and then a union or an intersection does not; a difference leaves slivers between such faces and may. Another engine is another [`Kernel`].
+//! right to about 1e-12 of the size of the operands; where faces are coplanar only to rounding, as in a
+//! turned copy, the result may intersect itself by as little. [`Options::jitter_m`] moves the second
+//! operand's faces outwards, for an intersection inwards, so that what was coplanar is on a known side
+//! and leaves no sheet; then results do not meet themselves. Solids that touch are apart by the jitter
+//! in a symmetric difference, and joined in a union. [`jittered`] moves the vertices of a view by chance,
+//! for unions of many. Another engine is another [`Kernel`].
 //!
 //! **Labels.** Faces of different numbers are never merged. With numbers for labels alone, coplanar
-//! neighbours of one label are, which leaves fewer faces; with origins, none are. Where an obstacle
-//! face coincides with only a part of a frontier face, the middle of the frontier face decides for all
-//! of it.
+//! neighbours of one label are, which leaves fewer faces; with origins, none are. Where faces of both
+//! operands coincide, within [`Options::coincident_m`], the obstacle wins: exactly in the part that it
+//! covers. The border of that part is right to a thousandth of that distance: a corner of a frontier face
+//! that is so near to it is taken to lie on it. New corners are rounded once.
 //!
 //! **Touching operands.** Where the result touches itself at an edge or a vertex, the vertices there
-//! exist twice: it is a 2-manifold by index. [`weld`](crate::mesh::weld) makes them one.
+//! exist twice, at the same places: it is a 2-manifold by index. [`weld`](crate::mesh::weld) makes them
+//! one. What has no volume is no solid: operands that touch have nothing in common.
 //!
 //! Source: \[Mos15\] 4 unites with Carve and does not say what becomes of labels on coincident faces;
 //! here the obstacle wins.
 
+mod attempt;
 mod coincide;
 mod combine;
+mod covered;
 mod events;
 mod jitter;
 mod kernel;
+mod leaves;
 mod manifold;
+mod surgery;
 mod tags;
+mod touching;
 mod unite;
 
 pub use coincide::{COINCIDENT_M, obstacle_wins};

@@ -1,4 +1,4 @@
-//! Step 6: a map out of many views.
+//! Step 7: a map out of many views.
 
 use probe::{Off, Probe};
 

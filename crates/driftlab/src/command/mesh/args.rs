@@ -47,12 +47,12 @@ pub(super) enum MeshCommand {
     /// Unite, intersect or subtract two closed meshes
     #[command(
         long_about = "Unite, intersect or subtract two closed meshes.\n\n\
-            Both must be closed 2-manifolds, oriented outward. Faces keep their labels; a frontier face \
-            that coincides with an obstacle face, looking the same way, becomes obstacle. --jitter \
-            moves the vertices of B by up to 1e-8 m first: where faces of A and B are coplanar to \
-            rounding, a union or an intersection may intersect itself by as little without it. Where an \
-            obstacle face covers only a part of a frontier face, the middle of the latter decides for all of \
-            it; smaller faces are nearer to the truth.",
+            Both must be closed 2-manifolds, oriented outward. Faces keep their labels; where a frontier \
+            face coincides with an obstacle face, looking the same way, that part of it becomes obstacle: \
+            the face is cut along the border. Where faces of A and B are coplanar to rounding, as after a \
+            turn, the result may intersect itself by as little. --jitter moves the faces of B first, \
+            outwards, for an intersection inwards, by 1e-8 m; where the result still intersects itself, \
+            by up to 1e-5 m.",
         after_help = "Examples:\n  \
             driftlab mesh boolean union a.ply b.ply -o both.ply\n  \
             driftlab mesh boolean difference part.stl tool.stl --record cut.rrd\n  \
@@ -215,9 +215,12 @@ pub(super) struct BooleanArgs {
     /// Draw edges no longer than this together in the end, metres; drops origins
     #[arg(long, value_name = "M", default_value_t = 0.0)]
     pub(super) clean: f64,
-    /// Move the vertices of B by up to 1e-8 m
+    /// Move the faces of B by 1e-8 m, or more where that leaves self-intersections
     #[arg(long)]
     pub(super) jitter: bool,
+    /// What part of the jitter is by chance depends on this
+    #[arg(long, value_name = "N", default_value_t = 1, requires = "jitter")]
+    pub(super) seed: u64,
 }
 
 /// Where a mesh and a recording go.

@@ -6,7 +6,7 @@ use std::time::Instant;
 use anyhow::anyhow;
 use instrument::{BooleanRecording, SolidOptions};
 use solid::boolean::{JITTER_M, Options, Provenance};
-use solid::{Operation, Polyhedron, SolidError, boolean_with, jittered};
+use solid::{Operation, Polyhedron, SolidError, boolean_with};
 
 use super::super::failure::Failure;
 use super::super::graph::numbers::listed;
@@ -19,8 +19,6 @@ pub(super) fn boolean(args: &BooleanArgs, out: &Out) -> Result<(), Failure> {
     let target = args.output.target(&[&args.a, &args.b])?;
     let a = input::mesh(&args.a, args.input.weld, out)?;
     let b = input::mesh(&args.b, args.input.weld, out)?;
-    let moved = args.jitter.then(|| jittered(&b.mesh, 1, JITTER_M));
-    let second = moved.as_ref().unwrap_or(&b.mesh);
     let operation = match args.operation {
         OperationName::Union => Operation::Union,
         OperationName::Intersection => Operation::Intersection,
@@ -34,15 +32,17 @@ pub(super) fn boolean(args: &BooleanArgs, out: &Out) -> Result<(), Failure> {
             args.clean
         )));
     }
-    let options = Options { provenance, clean_m: args.clean, ..Options::default() };
+    let jitter_m = if args.jitter { JITTER_M } else { 0.0 };
+    let (clean_m, seed) = (args.clean, args.seed);
+    let options = Options { provenance, clean_m, jitter_m, seed, ..Options::default() };
     let mut recording = match &args.output.recording.record {
         Some(path) => Some(record(path, operation, args)?),
         None => None,
     };
     let start = Instant::now();
     let combined = match &mut recording {
-        Some(recording) => boolean_with(&a.mesh, second, operation, &options, recording),
-        None => boolean_with(&a.mesh, second, operation, &options, &mut probe::Off),
+        Some(recording) => boolean_with(&a.mesh, &b.mesh, operation, &options, recording),
+        None => boolean_with(&a.mesh, &b.mesh, operation, &options, &mut probe::Off),
     };
     let secs = start.elapsed().as_secs_f64();
     let mesh = combined.map_err(|error| refused(&error, args))?;

@@ -1,0 +1,163 @@
+//! Operands that touch, or have faces in one plane: what has no volume is no solid, and results are valid.
+
+use pose::Se3;
+use pose::nalgebra::{UnitQuaternion, Vector3};
+use proptest::prelude::*;
+use solid::boolean::{JITTER_M, Options, obstacle_wins};
+use solid::{Label, Operation, Point3, Polyhedron, boolean, check, crossings};
+
+const ALL: [Operation; 4] = [
+    Operation::Union,
+    Operation::Intersection,
+    Operation::Difference,
+    Operation::SymmetricDifference,
+];
+
+fn cuboid(low: [f64; 3], high: [f64; 3], label: Label) -> Polyhedron {
+    Polyhedron::cuboid(&Point3::from(low), &Point3::from(high), label)
+}
+
+/// Boxes that touch the unit cube: at a whole face, parts of faces, edges, parts of edges, a corner.
+fn touching() -> Vec<Polyhedron> {
+    [
+        ([1.0, 0.0, 0.0], [2.0, 1.0, 1.0]),
+        ([1.0, 0.25, 0.25], [2.0, 0.75, 0.75]),
+        ([1.0, 0.25, 0.25], [2.0, 0.75, 1.5]),
+        ([1.0, 0.5, 0.5], [2.0, 1.5, 1.5]),
+        ([0.2, -0.5, 1.0], [0.7, 1.5, 2.0]),
+        ([1.0, 1.0, 0.0], [2.0, 2.0, 1.0]),
+        ([1.0, 1.0, 0.0], [2.0, 2.0, 0.5]),
+        ([1.0, 1.0, 0.3], [2.0, 2.0, 0.7]),
+        ([1.0, 1.0, 0.3], [2.0, 2.0, 1.7]),
+        ([1.0, 1.0, 1.0], [2.0, 2.0, 2.0]),
+    ]
+    .map(|(low, high)| cuboid(low, high, Label::Frontier))
+    .to_vec()
+}
+
+#[track_caller]
+fn assert_valid(mesh: &Polyhedron, what: &str) {
+    let validity = check(mesh);
+    assert!(validity.is_valid(), "{what}: {:?}", validity.defects.first());
+}
+
+#[test]
+fn boxes_that_touch_have_nothing_in_common() {
+    let cube = cuboid([0.0; 3], [1.0; 3], Label::Obstacle);
+    for (index, other) in touching().iter().enumerate() {
+        for (a, b) in [(&cube, other), (other, &cube)] {
+            for operation in ALL {
+                let what = format!("{operation}, {index}");
+                let mesh = boolean(a, b, operation, &Options::default()).expect("boxes");
+                assert_valid(&mesh, &what);
+                let expected = match operation {
+                    Operation::Intersection => 0.0,
+                    Operation::Difference => a.volume_m3(),
+                    _ => a.volume_m3() + b.volume_m3(),
+                };
+                assert!((mesh.volume_m3() - expected).abs() < 1e-12, "{what}");
+                assert_eq!(mesh.is_empty(), operation == Operation::Intersection, "{what}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_union_that_touches_along_half_an_edge_has_corners_there() {
+    let cube = cuboid([0.0; 3], [1.0; 3], Label::Obstacle);
+    let half = cuboid([1.0, 1.0, 0.0], [2.0, 2.0, 0.5], Label::Frontier);
+    let mesh = boolean(&cube, &half, Operation::Union, &Options::default()).expect("boxes");
+    assert_valid(&mesh, "half an edge");
+    let middle = Point3::new(1.0, 1.0, 0.5);
+    assert_eq!(mesh.vertices().iter().filter(|&&vertex| vertex == middle).count(), 2);
+    assert_eq!(mesh.faces().len(), 12 + 12 + 2);
+    assert_eq!(mesh.area_by_label().obstacle_m2, 6.0);
+    assert_eq!(mesh.area_by_label().frontier_m2, 4.0);
+}
+
+#[test]
+fn thin_solids_are_no_leaves() {
+    for thick in [1e-3, 1e-6, 1e-9] {
+        let plate = cuboid([0.0; 3], [1.0, 1.0, thick], Label::Obstacle);
+        let beam = cuboid([0.2, -1.0, -1.0], [0.4, 2.0, 1.0], Label::Obstacle);
+        let both = boolean(&plate, &beam, Operation::Intersection, &Options::default());
+        let both = both.expect("boxes");
+        let expected = 0.2 * thick;
+        assert!((both.volume_m3() - expected).abs() < 1e-15, "{thick}: {}", both.volume_m3());
+        assert_valid(&both, "a strip");
+    }
+}
+
+fn turned(mesh: &Polyhedron, axis: [f64; 3]) -> Polyhedron {
+    let turn = UnitQuaternion::from_scaled_axis(Vector3::from(axis));
+    mesh.transformed(&Se3::new(Vector3::new(1.0, 2.0, 3.0), turn))
+}
+
+#[test]
+fn jitter_leaves_no_self_intersection_in_any_operation() {
+    let cube = cuboid([0.0; 3], [1.0; 3], Label::Obstacle);
+    let mut others = touching();
+    for (low, high) in [
+        ([0.5, 0.0, 0.0], [1.5, 1.0, 1.0]),
+        ([0.5, 0.0, 0.0], [1.5, 1.0, 0.5]),
+        ([0.0, 0.0, 0.0], [1.0, 1.0, 2.0]),
+        ([0.25, 0.25, 0.0], [0.75, 0.75, 1.0]),
+        ([0.0, 0.0, 0.0], [1.0, 1.0, 1.0]),
+        ([0.3, 0.3, 0.3], [1.0, 1.0, 1.0]),
+    ] {
+        others.push(cuboid(low, high, Label::Frontier));
+    }
+    let mut crossed = 0;
+    for (index, other) in others.iter().enumerate() {
+        for axis in [[0.0; 3], [0.7, 0.0, 0.5], [0.1, -1.1, 2.3]] {
+            let (a, b) = (turned(&cube, axis), turned(other, axis));
+            for operation in ALL {
+                let plain = boolean(&a, &b, operation, &Options::default()).expect("boxes");
+                crossed += crossings(&plain, 1).len();
+                for seed in [1, 2] {
+                    let options = Options { jitter_m: JITTER_M, seed, ..Options::default() };
+                    let mesh = boolean(&a, &b, operation, &options).expect("boxes");
+                    assert_valid(&mesh, &format!("{operation}, {index}, {axis:?}"));
+                    let off = (mesh.volume_m3() - plain.volume_m3()).abs();
+                    assert!(off < 2e-4, "{operation}, {index}, {axis:?}: {off}");
+                    let again = boolean(&a, &b, operation, &options).expect("boxes");
+                    assert_eq!(mesh, again);
+                }
+            }
+        }
+    }
+    assert!(crossed > 0, "without jitter some do");
+}
+
+#[test]
+fn what_looks_the_other_way_is_no_obstacle() {
+    let frontier = cuboid([0.0; 3], [1.0; 3], Label::Frontier);
+    let beside = cuboid([1.0, 0.25, 0.25], [2.0, 0.75, 0.75], Label::Obstacle);
+    assert_eq!(obstacle_wins(&frontier, std::slice::from_ref(&beside), 1e-7), frontier);
+    let inside = cuboid([0.5, 0.25, 0.25], [1.0, 0.75, 0.75], Label::Obstacle);
+    let won = obstacle_wins(&frontier, &[inside], 1e-7);
+    assert_valid(&won, "a window");
+    assert!((won.area_by_label().obstacle_m2 - 0.25).abs() < 1e-15);
+    assert!((won.area_by_label().total_m2() - 6.0).abs() < 1e-14);
+}
+
+fn grid_box() -> impl Strategy<Value = Polyhedron> {
+    let side = (0..4_i32, 1..3_i32).prop_map(|(low, size)| [low, low + size]);
+    prop::array::uniform3(side).prop_map(|sides| {
+        let corner = |end: usize| sides.map(|side| 0.25 * f64::from(side[end]));
+        cuboid(corner(0), corner(1), Label::Obstacle)
+    })
+}
+
+proptest! {
+    #![proptest_config(ProptestConfig::with_cases(300))]
+
+    #[test]
+    fn boxes_on_a_grid_have_valid_results(a in grid_box(), b in grid_box()) {
+        for operation in ALL {
+            let mesh = boolean(&a, &b, operation, &Options::default()).expect("boxes");
+            let validity = check(&mesh);
+            prop_assert!(validity.is_valid(), "{operation}: {:?}", validity.defects.first());
+        }
+    }
+}
