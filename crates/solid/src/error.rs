@@ -32,7 +32,8 @@ pub enum SolidError {
     },
     /// A coordinate is NaN, infinite, or too large or too small to decide exactly.
     #[error(
-        "vertex {vertex} at ({x}, {y}, {z}): coordinates must be 0 or of magnitude 1e-45 to 1e50"
+        "vertex {vertex} at ({}, {}, {}): coordinates must be 0 or of magnitude 1e-45 to 1e50",
+        shown(*.x), shown(*.y), shown(*.z)
     )]
     OutsideEnvelope {
         /// The vertex.
@@ -99,7 +100,10 @@ pub enum SolidError {
         faces: Vec<u32>,
     },
     /// A face is seen from outside by the point that should see all from inside.
-    #[error("face {face} is seen from outside by ({x}, {y}, {z}): no star round that point")]
+    #[error(
+        "face {face} is seen from outside by ({}, {}, {}): no star round that point",
+        shown(*.x), shown(*.y), shown(*.z)
+    )]
     NotStar {
         /// The face.
         face: usize,
@@ -116,6 +120,14 @@ pub enum SolidError {
         /// The rule.
         rule: String,
     },
+}
+
+/// A coordinate as people write it: with an exponent where it would be a row of zeros.
+pub(crate) fn shown(coordinate: f64) -> String {
+    match coordinate.abs() {
+        0.0 | 1e-5..1e16 => coordinate.to_string(),
+        _ => format!("{coordinate:e}"),
+    }
 }
 
 /// The first defects, in words.

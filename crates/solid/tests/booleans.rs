@@ -255,6 +255,10 @@ fn broken_operands_are_refused_by_name() {
     let refused = boolean(&cube, &open, Operation::Union, &Options::default());
     let message = refused.expect_err("it is open").to_string();
     assert_eq!(message, "the second operand is no closed 2-manifold: edge 1-3 is open: face 0");
+    let points = Polyhedron::try_new(cube.vertices().to_vec(), vec![], vec![]).expect("points");
+    let refused = boolean(&points, &cube, Operation::Union, &Options::default());
+    let message = refused.expect_err("points are no solid").to_string();
+    assert_eq!(message, "the first operand is no closed 2-manifold: it has no faces");
     let empty = Polyhedron::try_new(vec![], vec![], vec![]).expect("nothing is wrong with nothing");
     let same =
         boolean(&cube, &empty, Operation::Union, &Options::default()).expect("nothing added");

@@ -45,6 +45,10 @@ fn every_broken_part_is_named() {
             "{bad}: {refused:?}"
         );
     }
+    let mut vertices = three.clone();
+    vertices[1].y = 1e-300;
+    let refused = made(&vertices, &[[0, 1, 2]], &label).expect_err("too small to decide on");
+    assert!(refused.to_string().contains("1e-300"), "{refused}");
     let mesh = cube();
     assert_eq!(
         mesh.clone().with_origins(vec![Origin { view: 0, face: 0 }]),

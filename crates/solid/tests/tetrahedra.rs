@@ -305,6 +305,8 @@ fn inner_faces_divide_the_inside() {
     let hole = Inside::Enclosed(vec![p(1.5, 0.5, 0.5)]);
     let half = tetrahedralize_in(&complex, &hole, &mut probe::Off).expect("it is valid");
     assert!((half.volume_m3() - 1.0).abs() < 1e-12);
+    // Of the half that is left out ten faces hang out of the other.
+    assert_eq!((half.boundary.len(), half.preserved_faces()), (22, 12));
 }
 
 #[test]

@@ -29,7 +29,11 @@ impl Builder {
     ) -> Result<(), FormatError> {
         let point = Point3::from(xyz);
         if !in_envelope(&point) {
-            let [x, y, z] = xyz;
+            // Not as a row of three hundred zeros.
+            let [x, y, z] = xyz.map(|c| match c.abs() {
+                0.0 | 1e-5..1e16 => c.to_string(),
+                _ => format!("{c:e}"),
+            });
             let expected = "coordinates that are 0 or of magnitude 1e-45 to 1e50";
             return Err(FormatError::unexpected(at(), format!("({x}, {y}, {z})"), expected));
         }

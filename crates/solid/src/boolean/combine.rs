@@ -215,8 +215,11 @@ pub(super) fn cleaned(
 
 /// What is wrong with an operand that the engine refused.
 pub(super) fn refused(which: &str, mesh: &Polyhedron, Refusal(engine): Refusal) -> SolidError {
-    let defects = check_topology(mesh).defects;
-    let defect = defects.first().map_or(engine, ToString::to_string);
+    let defect = match check_topology(mesh).defects.first() {
+        _ if mesh.is_empty() => "it has no faces".to_owned(),
+        Some(defect) => defect.to_string(),
+        None => format!("the engine takes it for none ({engine})"),
+    };
     SolidError::Operand { which: which.to_owned(), defect }
 }
 
@@ -242,7 +245,8 @@ pub(super) fn labelled(
             *coordinate = 0.0;
         }
         if !in_envelope(vertex) {
-            let reason = format!("a vertex of the result at {vertex}");
+            let [x, y, z] = [vertex.x, vertex.y, vertex.z].map(crate::error::shown);
+            let reason = format!("a vertex of the result at ({x}, {y}, {z})");
             return Err(SolidError::Engine { operation, reason });
         }
     }

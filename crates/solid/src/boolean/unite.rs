@@ -19,7 +19,7 @@ pub fn unite(views: &[Polyhedron], options: &Options) -> Result<Polyhedron, Soli
 ///
 /// The map stays with the engine between unions, so that nothing is converted twice; the rule for
 /// coincident faces is applied once, in the end, against all views. Without a view the result is
-/// empty. Each union costs O(n log n) for n faces of the map so far and the view. A probe that is on
+/// empty. `options.jitter_m` is not for unions of many: [`jittered`](super::jittered) views are. Each union costs O(n log n) for n faces of the map so far and the view. A probe that is on
 /// makes it costlier: each intermediate map is given back and looked at.
 ///
 /// # Errors

@@ -11,7 +11,8 @@ pub struct BoundaryFace {
     pub face: u32,
     /// Its label.
     pub label: Label,
-    /// The tetrahedra inside that have it: one, or two where both of its sides are inside.
+    /// The tetrahedra inside that have it: one, two where both of its sides are inside, none where both are
+    /// outside.
     pub tetrahedra: [Option<u32>; 2],
 }
 
@@ -36,6 +37,13 @@ pub struct Tetrahedra {
 }
 
 impl Tetrahedra {
+    /// How many faces of the input are faces of a tetrahedron inside: all where
+    /// [`Inside::Odd`](super::Inside::Odd) says what is inside; not those that hang out of an enclosed space.
+    pub fn preserved_faces(&self) -> usize {
+        let has_inside = |face: &&BoundaryFace| face.tetrahedra.iter().any(Option::is_some);
+        self.boundary.iter().filter(has_inside).count()
+    }
+
     /// The volume of all tetrahedra, cubic metres.
     pub fn volume_m3(&self) -> f64 {
         self.tetrahedra

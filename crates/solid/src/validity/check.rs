@@ -146,7 +146,7 @@ impl fmt::Display for Crossing {
             Contact::Touch => "touch",
             Contact::Overlap => "overlap in one plane",
         };
-        let at = self.at;
-        write!(f, "faces {a} and {b} {verb} near ({}, {}, {})", at.x, at.y, at.z)
+        let [x, y, z] = [self.at.x, self.at.y, self.at.z].map(crate::error::shown);
+        write!(f, "faces {a} and {b} {verb} near ({x}, {y}, {z})")
     }
 }

@@ -48,7 +48,7 @@ pub(super) fn tetrahedralize(args: &TetrahedralizeArgs, out: &Out) -> Result<(),
     let mut json = json!({
         "vertices": read.mesh.vertices().len(),
         "input_faces": read.mesh.faces().len(),
-        "preserved_faces": found.boundary.len(),
+        "preserved_faces": found.preserved_faces(),
         "tetrahedra": found.tetrahedra.len(),
         "steiner_points": found.steiner_points,
         "volume_m3": found.volume_m3(),
@@ -66,7 +66,7 @@ pub(super) fn tetrahedralize(args: &TetrahedralizeArgs, out: &Out) -> Result<(),
     json["recording"] = shown_path(args.recording.record.as_deref());
     let rows = [
         ("vertices", format!("{}, {} added", read.mesh.vertices().len(), found.steiner_points)),
-        ("faces", format!("{} of {} kept", found.boundary.len(), read.mesh.faces().len())),
+        ("faces", format!("{} of {} kept", found.preserved_faces(), read.mesh.faces().len())),
         ("tetrahedra", found.tetrahedra.len().to_string()),
         ("volume", format!("{} m3", shown(found.volume_m3()))),
         ("seconds", format!("read {:.4}, tetrahedralize {secs:.4}", read.secs)),
