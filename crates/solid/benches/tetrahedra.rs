@@ -6,43 +6,24 @@
 //! processor, of the median run.
 
 mod clock;
+mod files;
 
 use std::fmt::Write as _;
 use std::io::Write;
 
 use clock::secs;
+use files::read;
 use solid::boolean::Options;
 use solid::mesh::weld;
 use solid::synthetic::{Kind, views};
 use solid::tetrahedra::delaunay;
-use solid::{Label, Point3, Polyhedron, check, tetrahedralize, unite};
+use solid::{Point3, Polyhedron, check, tetrahedralize, unite};
 
 /// How often each mesh is filled; told is the median.
 const RUNS: usize = 3;
 
 fn say(line: &str) {
     writeln!(std::io::stdout(), "{line}").expect("stdout takes text");
-}
-
-/// A mesh of an OFF file; polygons as fans.
-fn read(path: &str) -> Polyhedron {
-    let text = std::fs::read_to_string(path).expect("a file");
-    let bare = text.lines().flat_map(|line| line.split('#').next()).flat_map(str::split_whitespace);
-    let mut words = bare.skip_while(|word| *word == "OFF");
-    let mut word = || words.next().expect("a whole file");
-    let (points, faces): (usize, usize) =
-        (word().parse().expect("a count"), word().parse().expect("a count"));
-    word();
-    let mut number = || word().parse::<f64>().expect("a number");
-    let vertices = (0..points).map(|_| Point3::new(number(), number(), number())).collect();
-    let mut triangles = Vec::new();
-    for _ in 0..faces {
-        let count = number() as usize;
-        let corners: Vec<u32> = (0..count).map(|_| number() as u32).collect();
-        triangles.extend((1..count - 1).map(|i| [corners[0], corners[i], corners[i + 1]]));
-    }
-    let labels = vec![Label::Obstacle; triangles.len()];
-    Polyhedron::try_new(vertices, triangles, labels).expect("a mesh")
 }
 
 fn write(path: &str, mesh: &Polyhedron) {

@@ -1,6 +1,7 @@
 //! Step 3: what the engine makes of two operands, by the first way that leaves no fold.
 
 use super::combine::{labelled, side_by_side};
+use super::leaves::tidied;
 use super::tags::Tags;
 use super::touching::conforming;
 use super::{Kernel, Operation, Refusal};
@@ -43,23 +44,27 @@ fn ways<K: Kernel>(operation: Operation) -> Vec<Way<K>> {
     }
 }
 
-/// What an operation makes of two operands, with labels and origins.
+/// What an operation makes of two operands, with labels and origins; by the plain way where they are in
+/// no contact.
 pub(super) fn attempt<K: Kernel>(
     kernel: &K,
     a: &K::Solid,
     b: &K::Solid,
     operation: Operation,
     tags: &Tags,
+    contact: bool,
 ) -> Result<Polyhedron, SolidError> {
     let failed =
         |Refusal(reason): Refusal| SolidError::Engine { operation: operation.name(), reason };
     let by = |way: Way<K>| {
-        labelled(kernel.give(&way(kernel, a, b).map_err(failed)?), tags, operation.name())
+        let given = kernel.give(&way(kernel, a, b).map_err(failed)?);
+        labelled(given, tags, operation.name())
+            .map(|mesh| if contact { tidied(mesh) } else { mesh })
     };
     if operation != Operation::SymmetricDifference {
         let ways = ways(operation);
         let plain = by(ways[0])?;
-        if !is_folded(&plain) {
+        if !contact || !is_folded(&plain) {
             return Ok(plain);
         }
         for &way in &ways[1..] {
@@ -102,7 +107,7 @@ pub(super) fn apart<K: Kernel>(
     let [first, second] = pairs.map(|(a, b)| {
         kernel.combine(a, b, Operation::Difference).map_err(failed).map(|left| kernel.give(&left))
     });
-    labelled(side_by_side(first?, second?), tags, operation.name())
+    labelled(side_by_side(first?, second?), tags, operation.name()).map(tidied)
 }
 
 /// Whether no face is flat, and nothing meets that should not once edges that touch are made to match.

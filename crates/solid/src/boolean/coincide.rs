@@ -8,7 +8,7 @@ use crate::{Label, Point3, Polyhedron, Vector3};
 pub const COINCIDENT_M: f64 = 1e-7;
 
 /// How much the cosine of the angle between the normals of coincident faces may fall short of 1.
-const PARALLEL: f64 = 1e-6;
+pub(super) const PARALLEL: f64 = 1e-6;
 
 /// An obstacle face, and the way that it looks.
 struct Face<'a> {

@@ -4,9 +4,9 @@ use probe::{Off, Probe};
 
 use super::attempt::{apart, attempt};
 use super::coincide::{Obstacles, settle};
+use super::contacts::are_in_contact;
 use super::covered::cut;
 use super::jitter::grown;
-use super::leaves::tidied;
 use super::tags::Tags;
 use super::touching::conforming;
 use super::{
@@ -19,8 +19,9 @@ use crate::reduce::{Cleaned, clean};
 use crate::validity::{check_topology, crossings};
 use crate::{Label, Point3, Polyhedron, Solid, SolidError};
 
-/// By how many times the jitter grows, one after the other, where the result meets itself.
-const AGAIN: [f64; 4] = [1.0, 10.0, 100.0, 1000.0];
+/// To how many times what was asked for the jitter grows, tenfold each time, where the result meets
+/// itself.
+const MOST_TIMES: f64 = 900.0;
 
 /// Faces coincide within so many times the jitter at least.
 const COINCIDENT_JITTERS: f64 = 10.0;
@@ -99,26 +100,28 @@ pub fn boolean_by<K: Kernel>(
     probe: &mut impl for<'x> Probe<BooleanEvent<'x>>,
 ) -> Result<Polyhedron, SolidError> {
     probe.emit(BooleanEvent::Started { operation, a, b });
-    let tried: &[f64] = if options.jitter_m > 0.0 { &AGAIN } else { &[0.0] };
-    let mut chosen = None;
-    for times in tried {
-        let jitter_m = times * options.jitter_m;
-        let mesh = once(kernel, a, b, operation, options, jitter_m)?;
-        let coincident_m = options.coincident_m.max(COINCIDENT_JITTERS * jitter_m);
-        let last = chosen.insert((mesh, coincident_m));
-        let (mesh, coincident_m) = (last.0.clone(), last.1);
-        if jitter_m == 0.0
-            || crossings(&settled(mesh, &looking(a, b, operation), coincident_m, &mut Off), 1)
-                .is_empty()
-        {
+    let mut jitter_m = options.jitter_m;
+    let contact = jitter_m > 0.0 || are_in_contact(a, b, options.coincident_m);
+    let looking = looking(a, b, operation);
+    let coincident_m = |jitter_m: f64| options.coincident_m.max(COINCIDENT_JITTERS * jitter_m);
+    let mut mesh = once(kernel, a, b, operation, options, jitter_m, contact)?;
+    while jitter_m > 0.0 && jitter_m < MOST_TIMES * options.jitter_m {
+        let whole = settled(mesh.clone(), &looking, coincident_m(jitter_m), &mut Off);
+        if crossings(&whole, 1).is_empty() {
             break;
         }
+        jitter_m *= 10.0;
+        mesh = once(kernel, a, b, operation, options, jitter_m, contact)?;
     }
-    let (mesh, coincident_m) = chosen.unwrap_or((Polyhedron::empty(), options.coincident_m));
     if probe.on() {
         tell_combined(&mesh, a, b, probe);
     }
-    let mesh = settled(mesh, &looking(a, b, operation), coincident_m, probe);
+    let mesh = if contact {
+        settled(mesh, &looking, coincident_m(jitter_m), probe)
+    } else {
+        probe.emit(BooleanEvent::Settled { mesh: &mesh, faces: &[] });
+        mesh
+    };
     let mesh = cleaned(mesh, options.clean_m, probe);
     probe.emit(BooleanEvent::Finished { mesh: &mesh });
     Ok(mesh)
@@ -132,6 +135,7 @@ fn once<K: Kernel>(
     operation: Operation,
     options: &Options,
     jitter_m: f64,
+    contact: bool,
 ) -> Result<Polyhedron, SolidError> {
     let mut tags = Tags::new(options.provenance);
     let (tags_a, tags_b) = (tags.of(a), tags.of(b));
@@ -151,7 +155,7 @@ fn once<K: Kernel>(
         let smaller_b = take_b(-jitter_m)?;
         return apart(kernel, [(&taken_a, &taken_b), (&smaller_b, &taken_a)], &tags, operation);
     }
-    attempt(kernel, &taken_a, &taken_b, operation, &tags)
+    attempt(kernel, &taken_a, &taken_b, operation, &tags, contact)
 }
 
 /// The operands, and which way their faces look in the result.
@@ -252,7 +256,7 @@ pub(super) fn labelled(
     }
     let labels = of_faces.iter().map(|&tag| tags.label(tag)).collect();
     let origins = of_faces.iter().map(|&tag| tags.origin(tag)).collect();
-    Ok(tidied(Polyhedron::from_sound_parts(vertices, faces, labels, origins)))
+    Ok(Polyhedron::from_sound_parts(vertices, faces, labels, origins))
 }
 
 /// For each face whether its middle is nearer to the surface of the first operand or of the second.

@@ -10,6 +10,9 @@
 //! | 6. slivers go, where that is asked for ([`clean`](crate::clean)) | `combine.rs` |
 //! | 7. many views are united one by one, each jittered first where they may be exactly coplanar | `unite.rs`, `jitter.rs` |
 //!
+//! Operands in general position, whose surfaces only pass through each other, need none of what steps 3 to 5
+//! do about contacts (`contacts.rs`).
+//!
 //! **Engine.** [`ManifoldKernel`] is `manifold-rust`, its exact engine by name: a port of Manifold,
 //! which decides intersections by symbolic perturbation and so always gives a 2-manifold. Geometry is
 //! right to about 1e-12 of the size of the operands; where faces are coplanar only to rounding, as in a
@@ -35,6 +38,7 @@
 mod attempt;
 mod coincide;
 mod combine;
+mod contacts;
 mod covered;
 mod events;
 mod jitter;

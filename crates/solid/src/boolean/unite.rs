@@ -3,6 +3,7 @@
 use probe::{Off, Probe};
 
 use super::combine::{cleaned, labelled, refused, settled};
+use super::leaves::tidied;
 use super::tags::Tags;
 use super::{BooleanEvent, Kernel, ManifoldKernel, Operation, Options, Refusal};
 use crate::{Polyhedron, SolidError};
@@ -19,8 +20,9 @@ pub fn unite(views: &[Polyhedron], options: &Options) -> Result<Polyhedron, Soli
 ///
 /// The map stays with the engine between unions, so that nothing is converted twice; the rule for
 /// coincident faces is applied once, in the end, against all views. Without a view the result is
-/// empty. `options.jitter_m` is not for unions of many: [`jittered`](super::jittered) views are. Each union costs O(n log n) for n faces of the map so far and the view. A probe that is on
-/// makes it costlier: each intermediate map is given back and looked at.
+/// empty. `options.jitter_m` has no effect here: give [`jittered`](super::jittered) views. Each union costs
+/// O(n log n) for n faces of the map so far and the view. A probe that is on makes it costlier: each
+/// intermediate map is given back and looked at.
 ///
 /// # Errors
 /// [`SolidError::Operand`] for a view that is no closed 2-manifold, with its first defect.
@@ -55,7 +57,7 @@ pub fn unite_with(
         });
     }
     let combined = map.map(|map| kernel.give(&map)).unwrap_or_default();
-    let mesh = labelled(combined, &tags, operation.name())?;
+    let mesh = tidied(labelled(combined, &tags, operation.name())?);
     let looking: Vec<_> = views.iter().map(|view| (view, 1.0)).collect();
     let mesh = settled(mesh, &looking, options.coincident_m, probe);
     let mesh = cleaned(mesh, options.clean_m, probe);
