@@ -14,6 +14,9 @@ pub(super) const PARALLEL: f64 = 1e-6;
 struct Face<'a> {
     corners: [&'a Point3; 3],
     looks: Vector3,
+    /// The place of its mesh in the list of meshes.
+    mesh: u32,
+    vertices: [u32; 3],
 }
 
 /// The obstacle faces of several meshes, to be found by place.
@@ -26,31 +29,53 @@ impl<'a> Obstacles<'a> {
     /// Each mesh with the sense in which its faces look: 1, or -1 where the operation turns them.
     pub(super) fn of(meshes: &[(&'a Polyhedron, f64)]) -> Self {
         let mut faces = Vec::new();
-        for &(mesh, sense) in meshes {
+        for (number, &(mesh, sense)) in (0..).zip(meshes) {
             let labels = mesh.labels().iter().enumerate();
             let obstacle = labels.filter(|&(_, &label)| label == Label::Obstacle);
             faces.extend(obstacle.filter_map(|(face, _)| {
                 let looks = mesh.scaled_normal(face).try_normalize(0.0)? * sense;
-                Some(Face { corners: mesh.corners(face), looks })
+                let (corners, vertices) = (mesh.corners(face), mesh.faces()[face]);
+                Some(Face { corners, looks, mesh: number, vertices })
             }));
         }
         let boxes: Vec<Aabb> = faces.iter().map(|face| Aabb::around(face.corners)).collect();
         Self { tree: Bvh::new(&boxes), faces }
     }
 
-    /// Calls `found` with the corners of each obstacle face whose box comes within `eps_m` of that of
+    /// For each side of each obstacle face the obstacle face of the same mesh across it; `u32::MAX` where
+    /// there is none. O(f log f).
+    pub(super) fn across(&self) -> Vec<[u32; 3]> {
+        let mut sides = Vec::with_capacity(3 * self.faces.len());
+        for (number, face) in self.faces.iter().enumerate() {
+            let [a, b, c] = face.vertices;
+            for (i, (s, t)) in [(a, b), (b, c), (c, a)].into_iter().enumerate() {
+                sides.push((face.mesh, [s.min(t), s.max(t)], number as u32, i));
+            }
+        }
+        sides.sort_unstable();
+        let mut across = vec![[u32::MAX; 3]; self.faces.len()];
+        for edge in sides.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)) {
+            if let [(_, _, f, i), (_, _, g, j)] = *edge {
+                across[f as usize][i] = g;
+                across[g as usize][j] = f;
+            }
+        }
+        across
+    }
+
+    /// Calls `found` with the number and the corners of each obstacle face whose box comes within `eps_m` of that of
     /// `points` and that looks the way of `normal`, of length 1.
     pub(super) fn each_near<'b>(
         &self,
         points: impl IntoIterator<Item = &'b Point3>,
         normal: &Vector3,
         eps_m: f64,
-        mut found: impl FnMut([&'a Point3; 3]),
+        mut found: impl FnMut(u32, [&'a Point3; 3]),
     ) {
         self.tree.each_touching(&Aabb::around(points).grown(eps_m), |index| {
             let face = &self.faces[index as usize];
             if face.looks.dot(normal) > 1.0 - PARALLEL {
-                found(face.corners);
+                found(index, face.corners);
             }
         });
     }
@@ -63,7 +88,7 @@ impl<'a> Obstacles<'a> {
         let Some(normal) = mesh.scaled_normal(face).try_normalize(0.0) else { return false };
         let border = border_m(eps_m, middle.coords.amax());
         let mut found = false;
-        self.each_near([&middle], &normal, eps_m, |other| {
+        self.each_near([&middle], &normal, eps_m, |_, other| {
             found = found || lies_on(&middle, other, eps_m, border);
         });
         found

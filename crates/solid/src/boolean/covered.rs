@@ -51,12 +51,16 @@ impl Side {
 
 /// What an obstacle face covers of the plane of a frontier face, as seen: convex.
 struct Cover {
+    /// The obstacle face.
+    face: u32,
     corners: Vec<Flat>,
     sides: Vec<Side>,
+    /// Whether the sides are those of the face, in their order: nothing of it is too far up or down.
+    whole: bool,
 }
 
 impl Cover {
-    fn of(corners: Vec<Flat>) -> Self {
+    fn of(face: u32, corners: Vec<Flat>, whole: bool) -> Self {
         let [u, v] = corners[0];
         let arm = |p: &Flat| [p[0] - u, p[1] - v];
         let twice = |pair: &[Flat]| {
@@ -64,7 +68,8 @@ impl Cover {
             a * d - b * c
         };
         let sides = sides_of(&corners, corners.windows(2).map(twice).sum::<f64>().signum());
-        Self { corners, sides }
+        let whole = whole && sides.len() == 3;
+        Self { face, corners, sides, whole }
     }
 
     /// Whether it and a triangle have more in common than a strip of `border` along a side.
@@ -128,13 +133,14 @@ fn covers(
     let seen = corners.map(|p| sight.see(p));
     let mut covers = Vec::new();
     let mut whole = false;
-    obstacles.each_near(corners, &normal, eps_m, |other| {
+    obstacles.each_near(corners, &normal, eps_m, |number, other| {
         let heights = other.map(|p| (p - corners[0]).dot(&normal));
         let part = within_slab(other, heights, eps_m);
         if part.len() < 3 {
             return;
         }
-        let cover = Cover::of(part.iter().map(|p| sight.see(p)).collect());
+        let within = heights.iter().all(|height| height.abs() <= eps_m);
+        let cover = Cover::of(number, part.iter().map(|p| sight.see(p)).collect(), within);
         if cover.overlaps(&seen, sight.sense, border) {
             whole |= cover.sides.iter().all(|side| seen.iter().all(|&p| side.depth(p) >= -border));
             covers.push(cover);
@@ -157,10 +163,19 @@ pub(super) fn cut(mesh: Polyhedron, obstacles: &Obstacles<'_>, eps_m: f64) -> Po
     if divided.is_empty() {
         return mesh;
     }
+    let across = obstacles.across();
     let mut pieces = Pieces { surgery: Surgery::of(mesh), of_root: BTreeMap::new() };
     for (face, (sight, border, covers)) in &divided {
+        let mut whole: Vec<u32> =
+            covers.iter().filter(|cover| cover.whole).map(|cover| cover.face).collect();
+        whole.sort_unstable();
+        // Where another face of the same obstacle goes on there is no border.
+        let goes_on = |cover: &Cover, side: usize| {
+            cover.whole && whole.binary_search(&across[cover.face as usize][side]).is_ok()
+        };
         for cover in covers {
-            pieces.cut(*face, *sight, *border, cover);
+            let border_sides = (0..cover.sides.len()).filter(|&side| !goes_on(cover, side));
+            border_sides.for_each(|side| pieces.cut(*face, *sight, *border, cover, side));
         }
     }
     pieces.surgery.done()
@@ -174,21 +189,19 @@ struct Pieces {
 }
 
 impl Pieces {
-    /// Cuts what is left of a face along the sides of a cover, one after the other, each as far as it
-    /// divides what the sides before left inside.
-    fn cut(&mut self, root: u32, sight: Sight, border: f64, cover: &Cover) {
-        for side in &cover.sides {
-            let mut waiting = self.of_root.get(&root).cloned().unwrap_or_else(|| vec![root]);
-            while let Some(piece) = waiting.pop() {
-                let seen = self.surgery.corners(piece).map(|p| sight.see(p));
-                if !cover.overlaps(&seen, sight.sense, border) {
-                    continue;
-                }
-                if let Some(new) = self.cut_once(piece, seen.map(|p| side.depth(p)), border) {
-                    // Of the face across only what belongs to this root is looked at again.
-                    let ours = |f: &u32| self.surgery.root_of[*f as usize] == root;
-                    waiting.extend(new.into_iter().filter(ours));
-                }
+    /// Cuts the pieces of a face that a cover overlaps along one of its sides.
+    fn cut(&mut self, root: u32, sight: Sight, border: f64, cover: &Cover, side: usize) {
+        let side = cover.sides[side];
+        let mut waiting = self.of_root.get(&root).cloned().unwrap_or_else(|| vec![root]);
+        while let Some(piece) = waiting.pop() {
+            let seen = self.surgery.corners(piece).map(|p| sight.see(p));
+            if !cover.overlaps(&seen, sight.sense, border) {
+                continue;
+            }
+            if let Some(new) = self.cut_once(piece, seen.map(|p| side.depth(p)), border) {
+                // Of the face across only what belongs to this root is looked at again.
+                let ours = |f: &u32| self.surgery.root_of[*f as usize] == root;
+                waiting.extend(new.into_iter().filter(ours));
             }
         }
     }
