@@ -162,10 +162,12 @@ impl Recognizer {
         let place = self.place(new - 1, (self.params.matching.recent, 0));
         let information = covariance.try_inverse().unwrap_or_else(Matrix3::identity);
         let prior = Prior { place_from_scan, information };
+        // Wheels that jump by a kilometre would have the search fill the memory.
+        let candidates = &self.params.candidates;
         let window = Window {
             place_from_scan,
-            reach_m: 3.0 * covariance[(0, 0)].sqrt() + 0.1,
-            reach_rad: 3.0 * covariance[(2, 2)].sqrt(),
+            reach_m: (3.0 * covariance[(0, 0)].sqrt() + 0.1).min(candidates.search_m),
+            reach_rad: (3.0 * covariance[(2, 2)].sqrt()).min(candidates.search_rad),
             angle_step_rad: self.params.matching.angle_step_rad,
         };
         let own = &self.keyframes[new].surface;

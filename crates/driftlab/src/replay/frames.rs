@@ -17,7 +17,7 @@ impl Track {
         self.poses.push((stamp, pose));
     }
 
-    /// Puts poses into the order of time; of one time the last counts.
+    /// Puts poses into the order of time; of one time they stay in the order of the log.
     pub fn sort(&mut self) {
         self.poses.sort_by_key(|pose| pose.0);
     }
@@ -42,7 +42,19 @@ impl Track {
         first.0.secs_since(stamp).max(stamp.secs_since(last.0)).max(0.0)
     }
 
-    /// The pose at a time: between two by the twist from one to the other, beyond the ends as there.
+    /// The pose at a time, for the thing that is the n-th of its kind at that time: clocks that are coarse,
+    /// or stood still, give several the same. Of several poses at that time the n-th, or the last.
+    pub fn nth_at(&self, stamp: Stamp, nth: usize) -> Option<Se3> {
+        let first = self.poses.partition_point(|pose| pose.0 < stamp);
+        let same = self.poses[first..].iter().take_while(|pose| pose.0 == stamp);
+        match same.take(nth + 1).last() {
+            Some(pose) => Some(pose.1),
+            None => self.at(stamp),
+        }
+    }
+
+    /// The pose at a time: between two by the twist from one to the other, beyond the ends as there; of
+    /// several at one time the last.
     pub fn at(&self, stamp: Stamp) -> Option<Se3> {
         let next = self.poses.partition_point(|pose| pose.0 <= stamp);
         let Some(before) = next.checked_sub(1).map(|i| &self.poses[i]) else {
@@ -95,6 +107,12 @@ impl Frames {
             at = parent;
         }
         None
+    }
+
+    /// Whether a chain leads from `ancestor` to `child`, at any time.
+    pub fn leads(&self, ancestor: &str, child: &str) -> bool {
+        let up = |at: &&str| self.of.get(*at).map(|(parent, _)| &**parent);
+        std::iter::successors(Some(child), up).take(DEEPEST).any(|at| at == ancestor)
     }
 
     /// The frame that odometry is given in, above a frame: the nearest whose name ends in `odom`.
@@ -157,6 +175,22 @@ mod tests {
         assert_eq!(frames.odometry_above("laser").as_deref(), Some("odom"));
         assert_eq!(frames.beyond_secs("odom", "laser", Stamp::from_secs(5.0)), 3.0);
         assert_eq!(frames.lookup("map", "laser", Stamp::from_secs(1.0)), None);
+    }
+
+    #[test]
+    fn what_has_the_same_stamp_goes_together_in_order() {
+        let mut track = Track::default();
+        for (secs, x) in [(1.0, 10.0), (1.0, 11.0), (2.0, 20.0)] {
+            track.push(Stamp::from_secs(secs), spatial(&Se2::new(x, 0.0, 0.0)));
+        }
+        track.sort();
+        let x_of =
+            |secs, nth| track.nth_at(Stamp::from_secs(secs), nth).map(|pose| pose.translation.x);
+        assert_eq!(
+            [x_of(1.0, 0), x_of(1.0, 1), x_of(1.0, 5)],
+            [Some(10.0), Some(11.0), Some(11.0)]
+        );
+        assert_eq!([x_of(1.5, 0), x_of(2.0, 0)], [Some(15.5), Some(20.0)]);
     }
 
     #[test]

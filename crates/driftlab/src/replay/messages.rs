@@ -145,7 +145,10 @@ pub(super) fn read(
         inputs,
         ..PlanarLog::default()
     };
+    source.tell_of_mount(&heard, topic, &mut warnings);
     let (mut without, mut held, mut decisions) = (0_u64, Vec::new(), Vec::new());
+    // The last stamp, and how many scans had it.
+    let mut at_one_time: (Option<Stamp>, usize) = (None, 0);
     for (of, message, step) in &heard.scans {
         if *of != topic {
             // Edges that another topic's scan took along.
@@ -154,7 +157,9 @@ pub(super) fn read(
             continue;
         }
         let stamp = message.header.stamp;
-        let odom_from_sensor = source.at(&heard, &message.header.frame, stamp);
+        let nth = if at_one_time.0 == Some(stamp) { at_one_time.1 } else { 0 };
+        at_one_time = (Some(stamp), nth + 1);
+        let odom_from_sensor = source.at(&heard, &message.header.frame, stamp, nth);
         let Some(odom_from_sensor) = odom_from_sensor.or(with_graph.then(Se3::identity)) else {
             without += 1;
             continue;
@@ -230,8 +235,17 @@ impl Source {
         };
         let (odometry, poses) = (of(&heard.tracks), of(&heard.poses));
         let named = |all: &[usize]| all.iter().any(|&topic| topics[topic].name == asked);
+        let frame = heard.scans.iter().find(|scan| scan.0 == scans).map(|s| &s.1.header.frame);
         if !odometry.is_empty() && (asked.is_empty() || named(&odometry)) {
-            let topic = chosen(topics, &odometry, asked, "odometry", key)?;
+            // Odometry of the sensor, or of a body on which it is known how it is mounted, comes first.
+            let mounted: Vec<usize> = heard
+                .tracks
+                .iter()
+                .filter(|track| frame.is_some_and(|frame| heard.frames.leads(&track.1, frame)))
+                .map(|track| track.0)
+                .collect();
+            let among = if asked.is_empty() && !mounted.is_empty() { &mounted } else { &odometry };
+            let topic = chosen(topics, among, asked, "odometry", key)?;
             told_of_others(topics, &odometry, topic, "odometry", warnings);
             return Ok(Self::Odometry(topic));
         }
@@ -242,7 +256,6 @@ impl Source {
             let all = [odometry, poses].concat();
             return chosen(topics, &all, asked, "odometry", key).map(Self::Pose);
         }
-        let frame = heard.scans.iter().find(|scan| scan.0 == scans).map(|s| &s.1.header.frame);
         if let Some(odom) = frame.and_then(|frame| heard.frames.odometry_above(frame)) {
             return Ok(Self::Frames(odom));
         }
@@ -257,8 +270,26 @@ impl Source {
             .into())
     }
 
-    /// The frame of a scan where the odometry has it.
-    fn at(&self, heard: &Heard, frame: &str, stamp: Stamp) -> Option<Se3> {
+    /// Warns where no transforms tell how the sensor of a topic is mounted on the body.
+    fn tell_of_mount(&self, heard: &Heard, scans: usize, warnings: &mut Vec<String>) {
+        let (tracks, topic) = match self {
+            Self::Odometry(topic) => (&heard.tracks, *topic),
+            Self::Pose(topic) => (&heard.poses, *topic),
+            Self::Frames(_) | Self::None => return,
+        };
+        let body = tracks.iter().find(|track| track.0 == topic).map_or("", |track| &track.1);
+        let Some((_, scan, _)) = heard.scans.iter().find(|scan| scan.0 == scans) else { return };
+        let frame = &scan.header.frame;
+        // A message of poses does not name its body.
+        if !body.is_empty() && !heard.frames.leads(body, frame) {
+            warnings.push(format!(
+                "no transforms lead from {body} to {frame}: the sensor counts as the middle of the body"
+            ));
+        }
+    }
+
+    /// The frame of a scan where the odometry has it; of scans of one stamp the `nth`.
+    fn at(&self, heard: &Heard, frame: &str, stamp: Stamp, nth: usize) -> Option<Se3> {
         let of_body = |tracks: &[(usize, Arc<str>, Track)], topic: usize| {
             let (_, body, track) = tracks.iter().find(|track| track.0 == topic)?;
             if track.is_empty() || track.beyond_secs(stamp) > BEYOND_SECS {
@@ -266,7 +297,7 @@ impl Source {
             }
             // Without a chain of transforms the sensor counts as the body's middle.
             let body_from_sensor = heard.frames.lookup(body, frame, stamp);
-            Some(track.at(stamp)? * body_from_sensor.unwrap_or_else(Se3::identity))
+            Some(track.nth_at(stamp, nth)? * body_from_sensor.unwrap_or_else(Se3::identity))
         };
         match self {
             Self::Odometry(topic) => of_body(&heard.tracks, *topic),
