@@ -4,6 +4,7 @@
 //! |---|---|
 //! | `log` | tells planar logs from folders of depth images |
 //! | `planar`, `messages`, `frames`, `digest` | files of every format to scans with odometry |
+//! | `jumps` | odometry that jumps |
 //! | `given` | place matches that somebody else found |
 //! | `params` | the config as the algorithms want it |
 //! | `by_scans` | keyframes, steps and places from the scans |
@@ -29,6 +30,7 @@ mod files;
 mod frames;
 mod given;
 mod judge;
+mod jumps;
 mod log;
 mod messages;
 mod params;

@@ -8,7 +8,7 @@ use formats::log::{DecisionMessage, EdgeMessage, StandingMessage};
 use formats::tum::Trajectory;
 
 use super::given::GivenMatch;
-use super::{ReplayError, messages};
+use super::{ReplayError, jumps, messages};
 use crate::config::Replay;
 use crate::run::Input;
 
@@ -95,6 +95,7 @@ pub(super) fn read(
         log.warnings.push("scans are not in the order of their stamps; put into it".into());
         log.scans.sort_by(|a, b| a.stamp_secs.total_cmp(&b.stamp_secs));
     }
+    log.warnings.extend(jumps::bridge(&mut log.scans));
     Ok(log)
 }
 
