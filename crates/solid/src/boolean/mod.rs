@@ -26,7 +26,8 @@
 //! neighbours of one label are, which leaves fewer faces; with origins, none are. Where faces of both
 //! operands coincide, within [`Options::coincident_m`], the obstacle wins: exactly in the part that it
 //! covers. The border of that part is right to a thousandth of that distance: a corner of a frontier face
-//! that is so near to it is taken to lie on it. New corners are rounded once.
+//! that is so near to it is taken to lie on it. New corners are rounded once. What becomes obstacle by
+//! this keeps the origin of the frontier face that it is part of.
 //!
 //! **Touching operands.** Where the result touches itself at an edge or a vertex, the vertices there
 //! exist twice, at the same places: it is a 2-manifold by index. [`weld`](crate::mesh::weld) makes them
