@@ -259,6 +259,13 @@ fn broken_operands_are_refused_by_name() {
     let refused = boolean(&points, &cube, Operation::Union, &Options::default());
     let message = refused.expect_err("points are no solid").to_string();
     assert_eq!(message, "the first operand is no closed 2-manifold: it has no faces");
+    let (vertices, mut faces, labels, _) = cube.clone().into_parts();
+    faces.iter_mut().for_each(|face| face.swap(0, 1));
+    let inside_out = Polyhedron::try_new(vertices, faces, labels).expect("indices are in range");
+    let refused = boolean(&cube, &inside_out, Operation::Intersection, &Options::default());
+    let message = refused.expect_err("it is inside out").to_string();
+    let expected = "the second operand is no closed 2-manifold: its faces look inwards, the volume is -1.000e0 m3";
+    assert_eq!(message, expected);
     let empty = Polyhedron::try_new(vec![], vec![], vec![]).expect("nothing is wrong with nothing");
     let same =
         boolean(&cube, &empty, Operation::Union, &Options::default()).expect("nothing added");

@@ -76,7 +76,7 @@ pub fn boolean(
 /// faces of both.
 ///
 /// # Errors
-/// [`SolidError::Operand`] where an operand is no closed 2-manifold, with its first defect.
+/// [`SolidError::Operand`] where an operand is no closed 2-manifold, with its first defect, or looks inwards.
 pub fn boolean_with(
     a: &Polyhedron,
     b: &Polyhedron,
@@ -99,6 +99,8 @@ pub fn boolean_by<K: Kernel>(
     options: &Options,
     probe: &mut impl for<'x> Probe<BooleanEvent<'x>>,
 ) -> Result<Polyhedron, SolidError> {
+    looks_outwards("first", a)?;
+    looks_outwards("second", b)?;
     probe.emit(BooleanEvent::Started { operation, a, b });
     let mut jitter_m = options.jitter_m;
     let contact = jitter_m > 0.0 || are_in_contact(a, b, options.coincident_m);
@@ -215,6 +217,24 @@ pub(super) fn cleaned(
     let Cleaned { mesh, removed, undone } = clean(&mesh, length_m);
     probe.emit(BooleanEvent::Cleaned { mesh: &mesh, removed: &removed, undone });
     mesh
+}
+
+/// A volume below minus this share of the cube over the diagonal of the bounds is not one by rounding.
+const INWARDS_SHARE: f64 = 1e-12;
+
+/// Refuses what is inside out: the engine would take all of space but the operand.
+fn looks_outwards(which: &str, mesh: &Polyhedron) -> Result<(), SolidError> {
+    let volume_m3 = mesh.volume_m3();
+    let diagonal_m = mesh.bounds().map_or(0.0, |(low, high)| (high - low).norm());
+    if volume_m3 >= -INWARDS_SHARE * diagonal_m.powi(3) {
+        return Ok(());
+    }
+    // Of an open mesh the volume tells nothing.
+    let defect = match check_topology(mesh).defects.first() {
+        Some(defect) => defect.to_string(),
+        None => format!("its faces look inwards, the volume is {volume_m3:.3e} m3"),
+    };
+    Err(SolidError::Operand { which: which.to_owned(), defect })
 }
 
 /// What is wrong with an operand that the engine refused.
