@@ -6,6 +6,7 @@ use std::fmt::Write as _;
 use std::fs;
 
 use desk::{Desk, code, json, root, stderr};
+use formats::log::{Content, LogReader, ReadOptions, planar};
 use pose::Se2;
 use serde_json::Value;
 
@@ -136,6 +137,59 @@ fn a_log_is_replayed_and_judged_without_truth() {
     let given = &given["metrics"];
     assert_eq!(given["loop_closures_accepted"], metrics["loop_closures_accepted"]);
     assert!(number(&given["relations_translation_m"]) < 0.06, "{given}");
+}
+
+/// The numbers of the lines of a text that start so.
+fn rows(text: &str, start: &str) -> Vec<Vec<f64>> {
+    let lines = text.lines().filter_map(|line| line.strip_prefix(start));
+    lines
+        .map(|line| line.split_whitespace().map(|w| w.parse().expect("a number")).collect())
+        .collect()
+}
+
+/// A robot comes back to vertices that it founded long ago: scans there are where these vertices are, and the
+/// way to them was driven.
+#[test]
+fn scans_of_an_exported_run_are_at_their_vertices_and_the_whole_way_counts() {
+    let desk = Desk::new(CONFIG);
+    let sample = root().join("recordings/samples/maze.mcap");
+    let bytes = fs::read(&sample).expect("the sample");
+    let log = LogReader::new(&bytes[..], &ReadOptions::default()).expect("MCAP").into_log();
+    let (mut standings, mut way_m, mut last) = (Vec::new(), 0.0, None::<Se2>);
+    for message in &log.messages {
+        match &message.content {
+            Content::Standing(standing) => standings.push(standing.clone()),
+            Content::Odometry(odometry) => {
+                let pose = planar(&odometry.odom_from_body);
+                way_m += last.map_or(0.0, |last| last.inverse_mul(&pose).distance());
+                last = Some(pose);
+            }
+            _ => {}
+        }
+    }
+    let newest = |i: usize| standings[..=i].iter().map(|s| s.vertex).max();
+    let old = (0..standings.len()).filter(|&i| Some(standings[i].vertex) < newest(i)).count();
+    assert!(old > 50, "known vertices are come back to: {old} scans");
+
+    let sample = sample.to_str().expect("a path of letters");
+    let result = json(&desk.driftlab(&["replay", sample, "a.toml", "--json"]));
+    let metrics = &result["metrics"];
+    let distance_m = metrics["distance_m"].as_f64().expect("a number");
+    assert!((distance_m - way_m).abs() < 1e-6, "{distance_m} m of {way_m} m");
+    assert_eq!(metrics["maps"]["relative"]["distance_m"], metrics["distance_m"]);
+
+    let text =
+        |name: &str| fs::read_to_string(desk.path("recordings/log").join(name)).expect("text");
+    let vertices = rows(&text("graph.g2o"), "VERTEX_SE2 ");
+    let scans = rows(&text("optimised.tum"), "");
+    assert_eq!(scans.len(), standings.len());
+    for (scan, standing) in scans.iter().zip(&standings) {
+        let vertex = vertices.iter().find(|row| row[0] == f64::from(standing.vertex));
+        let vertex = vertex.expect("a vertex for each standing");
+        let pose = Se2::new(vertex[1], vertex[2], vertex[3]) * standing.vertex_from_body;
+        let off_m = (pose.translation.x - scan[1]).hypot(pose.translation.y - scan[2]);
+        assert!(off_m < 1e-4, "{off_m} m at vertex {}", standing.vertex);
+    }
 }
 
 #[test]

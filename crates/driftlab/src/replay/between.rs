@@ -1,15 +1,31 @@
 //! Poses between keyframes: of every scan of a log, and at any time.
 
+use maps2d::Standing;
 use pose::Se2;
 
 use super::PlanarLog;
-use super::course::Stop;
+use super::course::{Course, Stop};
 
-/// The poses of all scans, from those of the keyframes: between two keyframes as odometry has it, with
-/// the difference at the end spread over the way.
+/// The poses of all scans, from those of the keyframes.
+///
+/// Where the log says at which vertex each scan was taken, the scan is there, in the frame of that vertex:
+/// known vertices are come back to. Else the scan lies between two keyframes.
+pub(super) fn of_scans(log: &PlanarLog, course: &Course, map_from_keyframe: &[Se2]) -> Vec<Se2> {
+    if course.standings.is_empty() {
+        return spread(log, &course.stops, map_from_keyframe);
+    }
+    let stood = |standing: &Standing| {
+        let pose = map_from_keyframe.get(standing.vertex.0 as usize).copied();
+        pose.unwrap_or_default() * standing.vertex_from_body
+    };
+    course.standings.iter().map(stood).collect()
+}
+
+/// The poses of all scans between two keyframes as odometry has it, with the difference at the end spread over
+/// the way.
 ///
 /// `map_from_keyframe` is by keyframe; scans before the first keyframe are as odometry has them from it.
-pub(super) fn of_scans(log: &PlanarLog, stops: &[Stop], map_from_keyframe: &[Se2]) -> Vec<Se2> {
+fn spread(log: &PlanarLog, stops: &[Stop], map_from_keyframe: &[Se2]) -> Vec<Se2> {
     let mut poses = Vec::with_capacity(log.scans.len());
     for (index, scan) in log.scans.iter().enumerate() {
         let next = stops.partition_point(|stop| stop.scan <= index);
@@ -69,6 +85,7 @@ pub(super) fn nearest(log: &PlanarLog, secs: f64) -> Option<(usize, f64)> {
 mod tests {
     use super::*;
     use formats::laser::LoggedScan;
+    use probe::VertexId;
     use sensing::Scan;
 
     fn log() -> PlanarLog {
@@ -90,7 +107,8 @@ mod tests {
             odom_from_sensor: log.scans[scan].odom_from_sensor,
         };
         let keyframes = [Se2::new(0.0, 0.0, 0.0), Se2::new(4.0, 0.4, 0.0)];
-        let poses = of_scans(&log, &[stop(0), stop(4)], &keyframes);
+        let mut course = Course { stops: vec![stop(0), stop(4)], ..Course::default() };
+        let poses = of_scans(&log, &course, &keyframes);
         let y: Vec<f64> =
             poses.iter().map(|pose| (pose.translation.y * 1e9).round() / 1e9).collect();
         assert_eq!(y, [0.0, 0.1, 0.2, 0.3, 0.4, 0.4, 0.4]);
@@ -100,5 +118,16 @@ mod tests {
         assert_eq!(at(&log, &poses, -5.0), Some(poses[0]));
         assert_eq!(nearest(&log, 3.4).map(|n| n.0), Some(3));
         assert_eq!(nearest(&log, 99.0), Some((6, 93.0)));
+
+        // Back at the first vertex, nothing of the second is in the poses.
+        course.standings = [0, 0, 1, 1, 0, 0, 0]
+            .map(|vertex| Standing {
+                vertex: VertexId(vertex),
+                vertex_from_body: Se2::new(0.0, 0.5, 0.0),
+            })
+            .to_vec();
+        let poses = of_scans(&log, &course, &keyframes);
+        let y: Vec<f64> = poses.iter().map(|pose| pose.translation.y).collect();
+        assert_eq!(y, [0.5, 0.5, 0.9, 0.9, 0.5, 0.5, 0.5]);
     }
 }

@@ -10,6 +10,7 @@ use posegraph::{
 use probe::{Off, VertexId};
 
 use super::by_scans::NO_TIME;
+use super::chain::Chain;
 use super::course::{Course, Stop};
 use super::planar::LoggedStep;
 use super::session::{Progress, Watched};
@@ -26,22 +27,16 @@ pub(super) fn by_graph(
     watched: &mut Watched<'_>,
 ) -> Result<Course, ReplayError> {
     let mut course = Course::default();
-    let mut distance_m = 0.0;
-    let mut by_odometry: Vec<Se2> = Vec::new();
+    let chain = Chain::of(log, steps);
     for (index, (scan, step)) in log.scans.iter().zip(steps).enumerate() {
         let time_secs = scan.stamp_secs - log.scans[0].stamp_secs;
-        let odometry = step.edges.iter().filter(|edge| !edge.place);
-        distance_m += odometry.map(|edge| edge.a_from_b.distance()).sum::<f64>();
+        let distance_m = chain.distances_m[index];
+        course.distance_m = distance_m;
         sides.begin(index as u64, distance_m, time_secs);
         watched.begin(index as u64, distance_m, time_secs);
-        let mut found = |upto: u32, from: Option<(usize, Se2)>, sides: &mut Sides| {
-            while by_odometry.len() <= upto as usize {
-                let before = by_odometry.last().copied().unwrap_or_default();
-                let pose = match from {
-                    Some((a, step)) => by_odometry.get(a).copied().unwrap_or(before) * step,
-                    None => before,
-                };
-                by_odometry.push(pose);
+        let mut found = |upto: u32, sides: &mut Sides| {
+            while course.stops.len() <= upto as usize {
+                let pose = chain.vertices[course.stops.len()];
                 sides.vertex(pose);
                 course.stops.push(Stop {
                     scan: index,
@@ -63,19 +58,19 @@ pub(super) fn by_graph(
                 })
                 .collect();
             for edge in edges {
-                let step = (!edge.place).then_some((edge.a as usize, edge.a_from_b));
-                found(edge.a, None, sides);
-                found(edge.b, step, sides);
+                found(edge.a, sides);
+                found(edge.b, sides);
             }
             sides.edges(Told::Measured, &new);
         }
-        found(step.standing.vertex, None, sides);
+        found(step.standing.vertex, sides);
         let standing = Standing {
             vertex: VertexId(step.standing.vertex),
             vertex_from_body: step.standing.vertex_from_body,
         };
         let seen = config.sensor.within_range(&config.sensor.in_view(scan.scan.clone()));
         course.saw(&standing, &seen);
+        course.standings.push(standing);
         sides.scanned(&standing, &seen);
         if index + 1 == log.scans.len() {
             log.last_decisions.iter().for_each(|decision| sides.decided(decision));
@@ -94,7 +89,7 @@ pub(super) fn by_graph(
         watched.keyframe(&progress, &mut course, sides)?;
     }
     course.views.resize(course.stops.len(), maps2d::volume::Samples::new());
-    settle(config, sides.graph(), by_odometry, &mut course);
+    settle(config, sides.graph(), chain.vertices, &mut course);
     watched.shown.settled(&course.optimised, sides.relative());
     course.bytes = sides.relative().map_or(0, maps2d::ExplorationMap::bytes) as u64;
     Ok(course)

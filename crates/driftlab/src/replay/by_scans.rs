@@ -207,6 +207,7 @@ impl Front<'_> {
         watched.shown.settled(&settled.map_from_keyframe, sides.relative());
         let tally = recognizer.tally();
         let course = &mut self.course;
+        course.distance_m = course.stops.last().map_or(0.0, |stop| stop.distance_m);
         course.factors = recognizer.graph();
         course.tracked = recognizer.chained();
         course.optimised = settled.map_from_keyframe;

@@ -43,6 +43,11 @@ pub struct Closures {
 pub struct Course {
     /// The keyframes, by vertex.
     pub stops: Vec<Stop>,
+    /// Where each scan was taken, by scan, where the log says so: vertices are come back to. Empty where the
+    /// graph is made from scans.
+    pub standings: Vec<Standing>,
+    /// Distance driven until the last scan that maps got, by the log's odometry; metres.
+    pub distance_m: f64,
     /// Everything that was seen from each of them, its frame.
     pub views: Vec<Samples>,
     /// All measurements with their information.

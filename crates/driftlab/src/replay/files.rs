@@ -35,7 +35,7 @@ pub fn files(
         inputs,
     };
     let trajectory = |poses: &[Se2]| {
-        let poses = between::of_scans(log, &course.stops, poses);
+        let poses = between::of_scans(log, course, poses);
         tum::write(&Trajectory {
             stamps_secs: log.scans.iter().map(|scan| scan.stamp_secs).collect(),
             poses: poses.iter().map(spatial).collect(),

@@ -45,12 +45,14 @@ pub(super) fn judge(
         let vertex = row.vertex as usize;
         row.odom_from_keyframe = by_odometry.get(vertex).copied().unwrap_or_default();
         row.map_from_keyframe = course.optimised.get(vertex).copied().unwrap_or_default();
-        row.covered_m2 = areas.get(vertex).copied().unwrap_or(0.0);
+        // Of all vertices until then: the one that the scan was taken at may be an old one.
+        let newest = row.vertices.saturating_sub(1) as usize;
+        row.covered_m2 = areas.get(newest).copied().unwrap_or(0.0);
     }
     let held_against = asked.relations.as_ref().map(|all| against(log, course, sides, all));
     let over = held_against.as_ref().map(|told| told.of_two_scans.optimised);
     let closures = &course.closures;
-    let distance_m = course.stops.last().map_or(0.0, |stop| stop.distance_m);
+    let distance_m = course.distance_m;
     let metrics = ReplayMetrics {
         name: config.name.clone(),
         seed: config.seed,
@@ -125,14 +127,18 @@ pub(super) fn places_to_go(map: &RelativeMap, map_from_vertex: &[Se2]) -> Vec<Pl
 /// Holds every estimate against relations.
 fn against(log: &PlanarLog, course: &Course, sides: &Sides, all: &[Relation]) -> Relations {
     let by_odometry = course.by_odometry();
-    let of = |poses: &[Se2]| between::of_scans(log, &course.stops, poses);
+    let of = |poses: &[Se2]| between::of_scans(log, course, poses);
     let (odometry, tracked, optimised) =
         (of(&by_odometry), of(&course.tracked), of(&course.optimised));
     let skeleton = skeleton_of(sides.graph(), f64::INFINITY);
     let (mut scope, mut scratch) = (Scope::default(), ScopeScratch::default());
     let keyframe_at = |secs: f64| {
-        let keyframe = course.stops.partition_point(|stop| stop.stamp_secs <= secs);
-        let keyframe = keyframe.saturating_sub(1);
+        let keyframe = if course.standings.is_empty() {
+            course.stops.partition_point(|stop| stop.stamp_secs <= secs).saturating_sub(1)
+        } else {
+            let scan = log.scans.partition_point(|scan| scan.stamp_secs <= secs);
+            course.standings.get(scan.saturating_sub(1))?.vertex.0 as usize
+        };
         let pose = between::at(log, &tracked, secs)?;
         Some((keyframe, course.tracked.get(keyframe)?.inverse_mul(&pose)))
     };

@@ -51,7 +51,12 @@ impl Heard {
                 let edges = std::mem::take(&mut self.edges);
                 let decisions = std::mem::take(&mut self.decisions);
                 let step = self.standing.clone();
-                let step = step.map(|standing| LoggedStep { decisions, edges, standing });
+                let step = step.map(|standing| LoggedStep {
+                    decisions,
+                    edges,
+                    standing,
+                    has_odometry: false,
+                });
                 self.scans.push((topic, scan, step));
             }
             Content::Odometry(odometry) => {
@@ -160,6 +165,7 @@ pub(super) fn read(
         let nth = if at_one_time.0 == Some(stamp) { at_one_time.1 } else { 0 };
         at_one_time = (Some(stamp), nth + 1);
         let odom_from_sensor = source.at(&heard, &message.header.frame, stamp, nth);
+        let has_odometry = odom_from_sensor.is_some();
         let Some(odom_from_sensor) = odom_from_sensor.or(with_graph.then(Se3::identity)) else {
             without += 1;
             continue;
@@ -173,7 +179,7 @@ pub(super) fn read(
             scan: taken(message, upside_down),
         });
         if let (Some(graph), Some(step)) = (&mut log.graph, step) {
-            let mut step = step.clone();
+            let mut step = LoggedStep { has_odometry, ..step.clone() };
             step.edges.splice(0..0, std::mem::take(&mut held));
             step.decisions.splice(0..0, std::mem::take(&mut decisions));
             graph.push(step);

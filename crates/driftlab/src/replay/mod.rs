@@ -9,6 +9,7 @@
 //! | `params` | the config as the algorithms want it |
 //! | `by_scans` | keyframes, steps and places from the scans |
 //! | `by_graph` | the pose graph as the log has it |
+//! | `chain` | its vertices by odometry alone, and the way driven |
 //! | `sides` | the maps, each with what its kind is told |
 //! | `session`, `course` | the replay as a whole, and what it came to |
 //! | `between` | poses of all scans from those of the keyframes |
@@ -20,6 +21,7 @@
 mod between;
 mod by_graph;
 mod by_scans;
+mod chain;
 mod consistency;
 mod course;
 mod covered;

@@ -39,6 +39,8 @@ pub struct LoggedStep {
     pub edges: Vec<EdgeMessage>,
     /// Where the scan was taken.
     pub standing: StandingMessage,
+    /// Whether the log's odometry has the sensor at the time of the scan.
+    pub has_odometry: bool,
 }
 
 impl PlanarLog {
