@@ -6,8 +6,13 @@ use std::fmt::Write as _;
 use std::fs;
 
 use desk::{Desk, code, json, root, stderr};
-use formats::log::{Content, LogReader, ReadOptions, planar};
+use formats::log::{
+    Content, Decision, DecisionMessage, EdgeMessage, Header, LogReader, ReadOptions, ScanMessage,
+    Stamp, StandingMessage, planar,
+};
+use formats::mcap::McapWriter;
 use pose::Se2;
+use sensing::Scan;
 use serde_json::Value;
 
 const CONFIG: &str = "# A log.\nname = \"log\"\n[replay]\nloop_m = 8.0\n[sensor]\nfov_deg = 360.0\n\
@@ -226,6 +231,84 @@ fn a_recording_shows_the_scans_three_ways_and_every_match() {
     }
     for event in ["KeyframeAdded", "Tracked", "CandidatesRanked", "PlaceMatched", "Closed"] {
         assert!(told.contains(event), "{event}: {told}");
+    }
+}
+
+/// A log with a graph of two vertices, and one message more.
+fn graph_log(odd: &Content) -> Vec<u8> {
+    let stamp = Stamp::from_secs;
+    let standing = |secs: f64, vertex: u32| {
+        let vertex_from_body = Se2::identity();
+        Content::Standing(StandingMessage { stamp: stamp(secs), vertex, vertex_from_body })
+    };
+    let scan = |secs: f64| {
+        Content::Scan(ScanMessage {
+            header: Header::new(stamp(secs), "base_link"),
+            scan: Scan::new(-0.5, 0.1, vec![2.0; 11], 5.0),
+            range_min_m: 0.0,
+            frame_from_sensor: None,
+        })
+    };
+    let edge = EdgeMessage {
+        stamp: stamp(2.0),
+        a: 0,
+        b: 1,
+        place: false,
+        a_from_b: Se2::new(1.0, 0.0, 0.0),
+    };
+    let mut writer = McapWriter::new(Vec::new()).expect("memory");
+    for (topic, secs, content) in [
+        ("/graph/standing", 1.0, &standing(1.0, 0)),
+        ("/scan", 1.0, &scan(1.0)),
+        ("/graph/edges", 2.0, &Content::Edge(edge)),
+        ("/graph/standing", 2.0, &standing(2.0, 1)),
+        ("/scan", 2.0, &scan(2.0)),
+        ("/graph/odd", 3.0, odd),
+        ("/scan", 3.0, &scan(3.0)),
+    ] {
+        writer.write(topic, stamp(secs), content).expect("memory");
+    }
+    writer.finish().expect("memory")
+}
+
+#[test]
+fn numbers_of_a_graph_without_bounds_ask_for_no_memory() {
+    let desk = Desk::new(CONFIG);
+    let (stamp, at) = (Stamp::from_secs(3.0), Se2::identity());
+    let gave_up = |vertex: u32, radius_m: f64| {
+        let decision = Decision::GaveUp {
+            vertex,
+            vertex_from_body: at,
+            goal_in_body: [1.0, 0.0],
+            radius_m,
+            everywhere: true,
+        };
+        Content::Decision(DecisionMessage { stamp, map: "grid".into(), decision })
+    };
+    let standing =
+        |vertex| Content::Standing(StandingMessage { stamp, vertex, vertex_from_body: at });
+    let edge = |a, b| Content::Edge(EdgeMessage { stamp, a, b, place: true, a_from_b: at });
+    for (odd, found) in [
+        (standing(4_000_000_000), "a standing at vertex 4000000000, expected 2 at most"),
+        (edge(0, 4_000_000_000), "an edge to vertex 4000000000, expected 2 at most"),
+        (edge(3, 1), "an edge from vertex 3, expected 2 at most"),
+        (gave_up(u32::MAX, 1.0), "a decision at vertex 4294967295, expected 1 at most"),
+    ] {
+        fs::write(desk.path("odd.mcap"), graph_log(&odd)).expect("a file");
+        let output = desk.driftlab(&["replay", "odd.mcap", "a.toml"]);
+        assert_eq!(code(&output), 2, "{}", stderr(&output));
+        let told = format!("odd.mcap: /graph/odd at 3.000000000 s: found {found}");
+        assert!(stderr(&output).contains(&told), "{}", stderr(&output));
+        assert!(!desk.path("recordings").exists());
+    }
+    // The next vertex is no gap, and a radius beyond everything gives up what is there.
+    for (odd, left) in [(edge(1, 2), false), (gave_up(1, 1e300), true)] {
+        fs::write(desk.path("odd.mcap"), graph_log(&odd)).expect("a file");
+        let args = ["replay", "odd.mcap", "a.toml", "--json", "--force"];
+        let result = json(&desk.driftlab(&args));
+        let grid = &result["metrics"]["maps"]["grid"];
+        assert_eq!(grid["vertices"], if left { 2 } else { 3 }, "{grid}");
+        assert_eq!(grid["frontier_ignored_m"].as_f64() > Some(0.0), left, "{grid}");
     }
 }
 

@@ -15,6 +15,7 @@ use pose::nalgebra::Vector3;
 use sensing::Scan;
 
 use super::digest::Digesting;
+use super::founded::Founded;
 use super::frames::{Frames, Track};
 use super::given::GivenMatch;
 use super::planar::LoggedStep;
@@ -42,10 +43,14 @@ struct Heard {
     decisions: Vec<DecisionMessage>,
     standing: Option<StandingMessage>,
     has_graph: bool,
+    founded: Founded,
 }
 
 impl Heard {
     fn take(&mut self, topic: usize, content: Content, is_places: bool) {
+        if !is_places {
+            self.founded.take(topic, &content);
+        }
         match content {
             Content::Scan(scan) => {
                 let edges = std::mem::take(&mut self.edges);
@@ -142,6 +147,9 @@ pub(super) fn read(
     let with_graph = config.graph == GraphSource::Log
         && heard.has_graph
         && heard.scans.iter().filter(|scan| scan.0 == topic).all(|scan| scan.2.is_some());
+    if with_graph && let Some(fault) = heard.founded.fault(&topics) {
+        return Err(refuse(fault));
+    }
     let source = Source::of(&heard, &topics, &config.odometry_topic, topic, &mut warnings)
         .map_err(refuse)?;
     let mut log = PlanarLog {

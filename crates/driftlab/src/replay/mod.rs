@@ -5,6 +5,7 @@
 //! | `log` | tells planar logs from folders of depth images |
 //! | `planar`, `messages`, `frames`, `digest` | files of every format to scans with odometry |
 //! | `jumps` | odometry that jumps |
+//! | `founded` | whether the vertices of a log's graph come in order |
 //! | `given` | place matches that somebody else found |
 //! | `params` | the config as the algorithms want it |
 //! | `by_scans` | keyframes, steps and places from the scans |
@@ -29,6 +30,7 @@ mod depth;
 mod digest;
 mod error;
 mod files;
+mod founded;
 mod frames;
 mod given;
 mod judge;

@@ -18,7 +18,7 @@ pub struct PlanarLog {
     /// Scans by rising stamp, each with the sensor where the log's odometry has it.
     pub scans: Vec<LoggedScan>,
     /// The pose graph of the log, where it holds one: for each scan the vertex that it was taken at,
-    /// and the edges that were new then.
+    /// and the edges that were new then. Vertices are numbered as they come, from 0.
     pub graph: Option<Vec<LoggedStep>>,
     /// What a policy told its map after the last scan.
     pub last_decisions: Vec<DecisionMessage>,

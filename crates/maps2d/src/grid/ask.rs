@@ -115,15 +115,25 @@ impl GridMap {
         let reach_m = radius_m.max(0.5 * self.params.cell_m);
         let low = self.cells.at(&Point2::new(goal.x - reach_m, goal.y - reach_m));
         let high = self.cells.at(&Point2::new(goal.x + reach_m, goal.y + reach_m));
-        for column in low.column..=high.column {
-            for row in low.row..=high.row {
-                let cell = Cell { column, row };
-                let near = (self.cells.centre(cell) - goal).norm() <= reach_m
-                    || self.cells.at(&goal) == cell;
-                if near && self.frontier.remove(&cell) {
-                    self.cells.give_up(cell);
-                    self.ignored.insert(cell);
-                }
+        // A reach beyond the grid costs no more than the columns that have frontier.
+        let (Some(first), Some(last)) = (self.frontier.first(), self.frontier.last()) else {
+            return;
+        };
+        for column in low.column.max(first.column)..=high.column.min(last.column) {
+            let cells = Cell { column, row: low.row }..=Cell { column, row: high.row };
+            let near: Vec<Cell> = self
+                .frontier
+                .range(cells)
+                .copied()
+                .filter(|&cell| {
+                    (self.cells.centre(cell) - goal).norm() <= reach_m
+                        || self.cells.at(&goal) == cell
+                })
+                .collect();
+            for cell in near {
+                self.frontier.remove(&cell);
+                self.cells.give_up(cell);
+                self.ignored.insert(cell);
             }
         }
     }

@@ -332,6 +332,23 @@ proptest! {
         })?;
     }
 
+    /// A reach without end gives up all frontier, and costs no more than what is there.
+    #[test]
+    fn a_reach_without_end_gives_up_everything(
+        story in stories(MIX, 2..6),
+        params in grid_params(),
+        radius_m in prop_oneof![Just(1e12), Just(f64::MAX)],
+    ) {
+        tell(&story, params, |_, grid, standing| {
+            let before = grid.frontier();
+            grid.give_up(standing, &Point2::new(1.0, 0.0), radius_m, true, &mut Off);
+            let after = grid.frontier();
+            prop_assert_eq!((after.open_m, after.places), (0.0, 0));
+            prop_assert!((after.ignored_m - before.ignored_m - before.open_m).abs() < 1e-9);
+            check_frontier(grid)
+        })?;
+    }
+
     /// What is given up counts no more, however often it is seen again.
     #[test]
     fn what_is_given_up_stays_so(
