@@ -234,6 +234,32 @@ fn a_recording_shows_the_scans_three_ways_and_every_match() {
     }
 }
 
+#[test]
+fn matches_and_relations_of_another_log_are_told() {
+    let desk = Desk::new(CONFIG);
+    let log = drive().0.lines().take(9).collect::<Vec<&str>>().join("\n");
+    desk.put("drive.log", &log);
+    // One that fits, the same from the other end, two of another log, one of a single scan.
+    let places = "100 106 3 0 0\n# known current\n106 101 -2.5 0 0\n5 106 0 0 0\n\
+                  100 900 0 0 0\n100.1 99.9 0 0 0\n";
+    desk.put("places.txt", places);
+    desk.put("relations.txt", "1 2 1 0 0 0 0 0\n");
+    let args = ["replay", "drive.log", "a.toml", "--places", "places.txt"];
+    let output = desk.driftlab(&[&args[..], &["--relations", "relations.txt"]].concat());
+    assert_eq!(code(&output), 0, "{}", stderr(&output));
+    for told in [
+        "warning: places.txt: 2 of 5 place match(es) have no scan of the log within 0.5 s of one of \
+         their times; left out, first line 4\n",
+        "warning: places.txt: 1 of 5 place match(es) name the same scan twice; left out, first line 6\n",
+        "warning: relations.txt: none of 1 relation(s) lies within the log, from 100 s to 107 s\n",
+    ] {
+        assert!(stderr(&output).contains(told), "{told}: {}", stderr(&output));
+    }
+    let result = json(&desk.driftlab(&[&args[..], &["--json", "--force"]].concat()));
+    assert_eq!(result["metrics"]["loop_closures_accepted"], 2, "{result}");
+    assert_eq!(result["metrics"]["loop_closures_rejected_by_graph"], 0, "{result}");
+}
+
 /// A log with a graph of two vertices, and one message more.
 fn graph_log(odd: &Content) -> Vec<u8> {
     let stamp = Stamp::from_secs;

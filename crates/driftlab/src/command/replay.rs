@@ -19,7 +19,7 @@ use super::table::table;
 use crate::config::{ConfigError, Loaded, Poses};
 use crate::replay::{
     Asked, Log, PlanarLog, Replayed, files, read_matches, replay as replay_log,
-    start_replay_recording,
+    start_replay_recording, unmatched, unrelated,
 };
 use crate::run::{Input, RunFolder, to_json};
 
@@ -77,8 +77,11 @@ fn planar(
         let bytes =
             fs::read(file).map_err(|e| refused(format!("cannot be read ({e}); {expected}")))?;
         inputs.push(Input::new(file, &bytes));
-        asked.relations =
-            Some(relations::read(&bytes).map_err(|error| refused(error.to_string()))?);
+        let relations = relations::read(&bytes).map_err(|error| refused(error.to_string()))?;
+        if let Some(warning) = unrelated(log, &relations) {
+            out.note(&format!("warning: {}: {warning}", file.display()));
+        }
+        asked.relations = Some(relations);
     }
     let given = match &args.places {
         None => None,
@@ -89,6 +92,11 @@ fn planar(
             Some(matches)
         }
     };
+    if let (Some(file), Some(matches)) = (&args.places, &given) {
+        for warning in unmatched(log, matches) {
+            out.note(&format!("warning: {}: {warning}", file.display()));
+        }
+    }
     out.detail(&format!(
         "{}: {} scans over {:.0} s",
         args.log.display(),

@@ -10,6 +10,7 @@ use posegraph::EdgeKind;
 use probe::VertexId;
 
 use super::course::{Closures, Course, Stop};
+use super::fits::scan_at;
 use super::given::{GivenMatch, Moment};
 use super::session::{Progress, Watched};
 use super::sides::{NewEdge, Sides, Told};
@@ -224,9 +225,6 @@ impl Front<'_> {
     }
 }
 
-/// A scan farther from the time of a given match is not the one that it speaks of, seconds.
-const NEAR_SECS: f64 = 0.5;
-
 /// Place matches by the scans that they speak of.
 struct Given<'a> {
     /// Scans that become keyframes because a match speaks of them.
@@ -238,12 +236,7 @@ struct Given<'a> {
 
 impl<'a> Given<'a> {
     fn new(log: &PlanarLog, matches: &'a [GivenMatch]) -> Self {
-        let near = |secs: f64| {
-            let gap = |i: &usize| (log.scans[*i].stamp_secs - secs).abs();
-            let next = log.scans.partition_point(|scan| scan.stamp_secs < secs);
-            let around = next.saturating_sub(1)..(next + 1).min(log.scans.len());
-            around.min_by(|a, b| gap(a).total_cmp(&gap(b))).filter(|i| gap(i) <= NEAR_SECS)
-        };
+        let near = |secs: f64| scan_at(log, secs);
         let mut given =
             Self { wanted: BTreeSet::new(), by_scan: Vec::new(), by_keyframe: Vec::new() };
         for one in matches {

@@ -27,6 +27,8 @@ pub enum Moment {
 /// A place that was recognised elsewhere.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct GivenMatch {
+    /// The line of the file that says so; `None` of a topic.
+    pub line: Option<usize>,
     /// When the place was seen first.
     pub known: Moment,
     /// When it was recognised.
@@ -48,7 +50,25 @@ impl GivenMatch {
         let turn = sigma_deg.to_radians();
         let variances = Vector3::new(sigma_m, sigma_m, turn).map(|sigma| sigma * sigma);
         let covariance = Matrix3::from_diagonal(&variances);
-        Self { known, current, known_from_current, covariance }
+        let given = Self { line: None, known, current, known_from_current, covariance };
+        let is_late = match (known, current) {
+            (Moment::Stamp(known), Moment::Stamp(current)) => known > current,
+            (Moment::Keyframe(known), Moment::Keyframe(current)) => known > current,
+            _ => false,
+        };
+        if is_late { given.other_way() } else { given }
+    }
+
+    /// The same match told from the other end: what was recognised is the later of the two, always.
+    fn other_way(self) -> Self {
+        let carried = self.known_from_current.adjoint();
+        Self {
+            line: self.line,
+            known: self.current,
+            current: self.known,
+            known_from_current: self.known_from_current.inverse(),
+            covariance: carried * self.covariance * carried.transpose(),
+        }
     }
 
     /// A transform between two frames whose names end in the stamps of the two scans, in seconds.
@@ -70,6 +90,8 @@ impl GivenMatch {
 }
 
 /// Reads matches, one `t_known t_current x y theta [sigma_m sigma_deg]` a line; comments start with `#`.
+///
+/// A line whose first time is the later one says the same from the other end, and is turned round.
 ///
 /// # Errors
 /// [`ReplayError::Input`] with the line that is not so.
@@ -106,7 +128,8 @@ pub fn read_matches(path: &Path) -> Result<(Vec<GivenMatch>, Input), ReplayError
         let [known, current, x, y, theta] = pose;
         let (known, current) = (Moment::Stamp(known), Moment::Stamp(current));
         let measured = Se2::new(x, y, theta);
-        matches.push(GivenMatch::new(known, current, measured, sigmas.0, sigmas.1));
+        let given = GivenMatch::new(known, current, measured, sigmas.0, sigmas.1);
+        matches.push(GivenMatch { line: Some(number + 1), ..given });
     }
     Ok((matches, Input::new(path, &bytes)))
 }
@@ -128,6 +151,19 @@ mod tests {
         assert_eq!((matches.len(), input.bytes), (2, 44));
         assert_eq!(matches[0].known, Moment::Stamp(1.0));
         assert!((matches[0].covariance[(0, 0)] - 0.04).abs() < 1e-12);
+        assert_eq!((matches[0].line, matches[1].line), (Some(2), Some(4)));
+
+        // The later time first is the same match from the other end.
+        let (turned, _) = read("2.5 1 0.4 -0.3 2 0.2 2\n").expect("good");
+        let one = turned[0];
+        assert_eq!((one.known, one.current), (Moment::Stamp(1.0), Moment::Stamp(2.5)));
+        let there_and_back = one.known_from_current * Se2::new(0.4, -0.3, 2.0);
+        assert!(there_and_back.log().norm() < 1e-12, "{there_and_back:?}");
+        // As far as it is unsure of the turn, it is unsure of what lies across at 0.5 m.
+        let turn = 2.0_f64.to_radians();
+        let expected = 2.0 * 0.04 + (0.5 * turn).powi(2);
+        assert!((one.covariance[(0, 0)] + one.covariance[(1, 1)] - expected).abs() < 1e-12);
+
         for (text, found) in [
             ("1 2 3\n", "line 1: found 3 number(s)"),
             ("\n1 2 x 0 0\n", "line 2: found `x`"),

@@ -7,6 +7,7 @@
 //! | `jumps` | odometry that jumps |
 //! | `founded` | whether the vertices of a log's graph come in order |
 //! | `given` | place matches that somebody else found |
+//! | `fits` | whether these, and relations, speak of the log |
 //! | `params` | the config as the algorithms want it |
 //! | `by_scans` | keyframes, steps and places from the scans |
 //! | `by_graph` | the pose graph as the log has it |
@@ -30,6 +31,7 @@ mod depth;
 mod digest;
 mod error;
 mod files;
+mod fits;
 mod founded;
 mod frames;
 mod given;
@@ -54,6 +56,7 @@ pub use depth::{
 };
 pub use error::ReplayError;
 pub use files::files;
+pub use fits::{unmatched, unrelated};
 pub use given::{GivenMatch, Moment, read_matches};
 pub use judge::Asked;
 pub use log::Log;

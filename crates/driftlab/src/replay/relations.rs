@@ -56,6 +56,14 @@ pub(super) struct Estimates<'a> {
     pub optimised: &'a [Se2],
 }
 
+/// Whether both times of a relation are within those of the log.
+pub(super) fn is_within(log: &PlanarLog, relation: &Relation) -> bool {
+    let first = log.scans.first().map_or(f64::INFINITY, |scan| scan.stamp_secs);
+    let last = log.scans.last().map_or(f64::NEG_INFINITY, |scan| scan.stamp_secs);
+    let within = |secs: f64| secs >= first - NEAR_SECS && secs <= last + NEAR_SECS;
+    within(relation.from_secs) && within(relation.to_secs)
+}
+
 /// Holds the estimates against relations; `relative` places the second scan in the frame of the first.
 pub(super) fn relations(
     log: &PlanarLog,
@@ -63,15 +71,12 @@ pub(super) fn relations(
     estimates: &Estimates<'_>,
     mut relative: impl FnMut(f64, f64) -> Option<Se2>,
 ) -> Relations {
-    let first = log.scans.first().map_or(f64::INFINITY, |scan| scan.stamp_secs);
-    let last = log.scans.last().map_or(f64::NEG_INFINITY, |scan| scan.stamp_secs);
-    let within = |secs: f64| secs >= first - NEAR_SECS && secs <= last + NEAR_SECS;
     // Of two scans, of one, between scans.
     let mut sums = [Sums::default(); 3];
     for relation in relations {
         let (from, to) = (relation.from_secs, relation.to_secs);
         let (Some(a), Some(b)) = (nearest(log, from), nearest(log, to)) else { continue };
-        if !within(from) || !within(to) {
+        if !is_within(log, relation) {
             continue;
         }
         let class = if a.1.max(b.1) > NEAR_SECS { 2 } else { usize::from(a.0 == b.0) };
