@@ -345,6 +345,17 @@ fn what_cannot_be_replayed_is_told_and_leaves_nothing() {
     desk.put("one.log", line);
     desk.put("bad.log", "FLASER 3 1 1\n");
     desk.put("no.log", "nothing\n");
+    desk.put("empty.log", "");
+    fs::write(desk.path("picture.log"), b"\x89PNG\r\n\x1a\n\0\0").expect("a file");
+    // Cut within the first record, and behind topics that hold no scan.
+    let sample = fs::read(root().join("recordings/samples/maze.mcap")).expect("the sample");
+    fs::write(desk.path("head.mcap"), &sample[..200]).expect("a file");
+    let at = Stamp::from_secs(1.0);
+    let standing = StandingMessage { stamp: at, vertex: 0, vertex_from_body: Se2::identity() };
+    let mut writer = McapWriter::new(Vec::new()).expect("memory");
+    writer.write("/graph/standing", at, &Content::Standing(standing)).expect("memory");
+    let whole = writer.finish().expect("memory");
+    fs::write(desk.path("half.mcap"), &whole[..whole.len() * 9 / 10]).expect("a file");
     desk.put("places.txt", "1 2 x 0 0\n");
     desk.put("relations.txt", "1 2 3\n");
     desk.put("true.toml", "[replay]\n[map.grid]\nposes = \"true\"\n");
@@ -352,7 +363,18 @@ fn what_cannot_be_replayed_is_told_and_leaves_nothing() {
         (&["gone.log", "a.toml"][..], "gone.log: cannot be read"),
         (&[".", "a.toml"], ".: found a folder, expected a log"),
         (&["bad.log", "a.toml"], "bad.log: line 1, column 8"),
-        (&["no.log", "a.toml"], "expected a log of CARMEN"),
+        (
+            &["no.log", "a.toml"],
+            "no.log: byte 0: found a file of no known kind, expected an MCAP file",
+        ),
+        (&["empty.log", "a.toml"], "empty.log: byte 0: found an empty file, expected an MCAP file"),
+        (
+            &["picture.log", "a.toml"],
+            "found a PNG file, expected an MCAP file, a bag of ROS 1, a log of",
+        ),
+        (&["head.mcap", "a.toml"], "head.mcap: byte "),
+        (&["head.mcap", "a.toml"], ", of which "),
+        (&["half.mcap", "a.toml"], "; damaged at byte "),
         (&["one.log", "true.toml"], "true.toml:3:9: found \"true\" for `map.grid.poses`"),
         (&["one.log", "a.toml", "--places", "places.txt"], "places.txt: line 1: found `x`"),
         (&["one.log", "a.toml", "--places", "/closures"], "found no topic /closures in a text log"),

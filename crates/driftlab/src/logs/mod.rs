@@ -11,3 +11,4 @@ mod source;
 mod text;
 
 pub use source::{LogError, LogSource};
+pub(crate) use text::no_laser_log;

@@ -32,6 +32,25 @@ pub(super) fn read(bytes: &[u8], extension: Option<&str>) -> Result<Log, FormatE
     }
 }
 
+/// What a file is that [`laser::read`](formats::laser::read) cannot read, and what it should be; `None` where it
+/// is a log of a laser, with something wrong inside that the reader tells better.
+pub(crate) fn no_laser_log(bytes: &[u8]) -> Option<FormatError> {
+    const EXPECTED: &str = "an MCAP file, a bag of ROS 1, a log of CARMEN with a FLASER or ROBOTLASER1 \
+                            line, or a JSON map of scans";
+    let bytes = gzip::unpack(bytes).ok()?;
+    let found = match bytes.iter().find(|byte| !byte.is_ascii_whitespace()) {
+        None => "an empty file".to_owned(),
+        Some(b'{') => return None,
+        Some(_) if is_carmen(&bytes) => return None,
+        Some(_) => match sniff(&bytes, None) {
+            Kind::Unknown => "a file of no known kind".to_owned(),
+            kind => format!("{} file", name_of(kind)),
+        },
+    };
+    let at = Position::Byte(0);
+    Some(FormatError::Unexpected { at, found, expected: EXPECTED.to_owned() })
+}
+
 /// Whether a line is a scan of CARMEN.
 fn is_carmen(bytes: &[u8]) -> bool {
     let mut lines = bytes.split(|&byte| byte == b'\n');
@@ -96,6 +115,27 @@ mod tests {
         );
         let gfs = r#"{"map": {"1": {"range": [1, 2], "x": 0, "y": 0, "theta": 0}}}"#;
         assert_eq!(encoding(gfs, None), "json map");
+    }
+
+    #[test]
+    fn what_is_no_log_of_a_laser_is_named_with_all_that_would_be() {
+        let told = |bytes: &[u8]| no_laser_log(bytes).map(|error| error.to_string());
+        for (bytes, found) in [
+            (&b"\x89PNG\r\n\x1a\n\0\0"[..], "found a PNG file"),
+            (b"", "found an empty file"),
+            (b" \n", "found an empty file"),
+            (b"0 1 2\0\x01", "found a file of no known kind"),
+            (b"10 1 2 3 0 0 0.6 0.8\n", "found a TUM file"),
+        ] {
+            let told = told(bytes).expect(found);
+            assert!(told.contains(found), "{told}");
+            for form in ["MCAP", "bag of ROS 1", "CARMEN with a FLASER", "JSON"] {
+                assert!(told.contains(form), "{told}");
+            }
+        }
+        for bytes in [&b"ODOM 1\nFLASER 3 1\n"[..], b"ROBOTLASER1 x", b" {\"map\": 1}"] {
+            assert_eq!(told(bytes), None);
+        }
     }
 
     #[test]

@@ -128,7 +128,14 @@ pub(super) fn read(
     }
     let topics = reader.topics().to_vec();
     let mut warnings = reader.warnings().to_vec();
-    warnings.extend(reader.damage().map(|damage| format!("damaged at {damage}")));
+    let damage = reader.damage().cloned();
+    warnings.extend(damage.iter().map(|damage| format!("damaged at {damage}")));
+    // What is missing may stand behind the damage.
+    let refuse = |message: String| match &damage {
+        None => refuse(message),
+        Some(damage) if topics.is_empty() => refuse(format!("byte {}: {}", damage.at, damage.what)),
+        Some(damage) => refuse(format!("{message}; damaged at {damage}")),
+    };
     drop(reader);
     // What stands behind the last message belongs to the file, too.
     let _ = std::io::copy(&mut source, &mut std::io::sink());

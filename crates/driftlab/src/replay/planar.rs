@@ -10,6 +10,7 @@ use formats::tum::Trajectory;
 use super::given::GivenMatch;
 use super::{ReplayError, jumps, messages};
 use crate::config::Replay;
+use crate::logs::no_laser_log;
 use crate::run::Input;
 
 /// A planar log in memory.
@@ -86,8 +87,8 @@ pub(super) fn read(
         }
         let bytes = text_of(path).map_err(refuse)?;
         let input = Input::new(path, &bytes);
-        let LaserLog { scans, warnings, .. } =
-            laser::read(&bytes).map_err(|error| refuse(error.to_string()))?;
+        let LaserLog { scans, warnings, .. } = laser::read(&bytes)
+            .map_err(|error| refuse(no_laser_log(&bytes).unwrap_or(error).to_string()))?;
         PlanarLog { scans, warnings, inputs: vec![input], ..PlanarLog::default() }
     };
     let sorted = |scans: &[LoggedScan]| {
