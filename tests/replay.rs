@@ -111,6 +111,9 @@ fn a_log_is_replayed_and_judged_without_truth() {
         assert!(metrics["maps"][map]["frontier_left_m"].is_number(), "{metrics}");
         assert!(metrics["maps"][map]["coverage"].is_null(), "nobody knows: {metrics}");
     }
+    // The grid lives by the wheels alone.
+    assert_eq!(metrics["maps"]["grid"]["place_edges"], 0, "{metrics}");
+    assert_eq!(metrics["maps"]["relative"]["place_edges"], metrics["loop_closures_accepted"]);
     let timing = &result["timing"];
     for name in ["wall_secs", "keyframe_millis_median", "keyframe_millis_p99", "bytes_per_keyframe"]
     {

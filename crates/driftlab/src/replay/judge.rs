@@ -93,7 +93,7 @@ fn map_metrics(side: &Side, sides: &Sides, course: &Course, distance_m: f64) -> 
         distance_m,
         steps: course.millis.len() as u64,
         scans: course.scans,
-        place_edges: places as u64,
+        place_edges: side.told.places_of(places as u64),
         frontier_left_m: frontier.open_m,
         frontier_ignored_m: frontier.ignored_m,
         frontier_places: frontier.places as u64,

@@ -84,7 +84,7 @@ pub struct ReplayMapMetrics {
     pub steps: u64,
     /// Scans that the map got.
     pub scans: u64,
-    /// Place edges in the graph.
+    /// Recognised places that the map was told of, as edges or by way of optimised poses.
     pub place_edges: u64,
     /// As `coverage`.
     pub collisions: Option<u64>,

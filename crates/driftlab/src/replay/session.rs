@@ -49,7 +49,7 @@ pub(super) struct Progress<'a> {
 pub(super) struct Watched<'a> {
     /// The recording.
     pub shown: Shown<'a>,
-    /// Told how far it is: the share of the log, and the last row.
+    /// Told how far it is: the share of the log, and a row of the keyframe.
     pub on_keyframe: &'a mut dyn FnMut(f64, &ReplayRow),
 }
 
@@ -72,6 +72,7 @@ impl Watched<'_> {
             Some(recognizer) => recognizer.closures().len() as u64,
             None => edges - (vertices - 1).min(edges),
         };
+        let first = course.rows.len();
         for side in &mut sides.all {
             let frontier = side.held.map().frontier();
             course.rows.push(ReplayRow {
@@ -87,7 +88,7 @@ impl Watched<'_> {
                 frontier_ignored_m: frontier.ignored_m,
                 frontier_places: frontier.places as u64,
                 vertices,
-                place_edges,
+                place_edges: side.told.places_of(place_edges),
             });
             side.recorder.end_step(&StepEnd {
                 standing: now.standing,
@@ -102,7 +103,9 @@ impl Watched<'_> {
             })?;
         }
         self.shown.keyframes(course, now.recognizer, sides)?;
-        if let Some(row) = course.rows.last() {
+        // Of the map that was told most: not every map hears of places.
+        let told = course.rows[first..].iter().max_by_key(|row| row.place_edges);
+        if let Some(row) = told {
             (self.on_keyframe)(now.share, row);
         }
         Ok(())

@@ -39,6 +39,14 @@ impl Told {
             _ => Self::Measured,
         }
     }
+
+    /// How many of the recognised places reach such a map, as edges or by way of optimised poses.
+    pub fn places_of(self, recognised: u64) -> u64 {
+        match self {
+            Self::Measured | Self::Settled => recognised,
+            Self::Wheels => 0,
+        }
+    }
 }
 
 /// An edge before it is in a graph.

@@ -31,7 +31,7 @@ pub struct ReplayRow {
     pub frontier_places: u64,
     /// Vertices of the pose graph.
     pub vertices: u64,
-    /// Place edges in it.
+    /// Recognised places that the map was told of.
     pub place_edges: u64,
 }
 
