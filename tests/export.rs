@@ -177,6 +177,26 @@ fn an_exported_run_is_replayed_to_the_same_frontier() {
     }
 }
 
+/// A grid gives up by itself what no way leads to; its log has that, too.
+#[test]
+fn a_grid_that_is_done_is_done_again_in_its_replay() {
+    let desk = Desk::new(&MAZE.replace("[map.relative]", "[map.grid]\ncell_m = 1.0"));
+    let set = "max_steps=20000";
+    let run = json(&desk.driftlab(&["run", "a.toml", "--json", "--export", "out", "--set", set]));
+    let config = fs::read_to_string(desk.path("a.toml")).expect("a config");
+    let config = config.replace("[world.paper]\nmap = \"maze\"", "[replay]");
+    let config = config.replace("max_steps = 40", "").replace("[planner.rapid]", "");
+    desk.put("replay.toml", &config);
+    let args = ["replay", "out/grid.mcap", "replay.toml", "--json", "--out", "again"];
+    let again = json(&desk.driftlab(&args));
+    let (run, again) = (&run["metrics"]["maps"]["grid"], &again["metrics"]["maps"]["grid"]);
+    assert_eq!(run["believed_complete"], true, "{run}");
+    assert!(run["frontier_ignored_m"].as_f64() > Some(0.0), "{run}");
+    for name in ["believed_complete", "frontier_left_m", "frontier_ignored_m", "scans"] {
+        assert_eq!(run[name], again[name], "{name}");
+    }
+}
+
 #[test]
 fn each_robot_leaves_its_log_its_trajectories_and_its_graph() {
     let desk = Desk::new(&format!("{MAZE}[map.grid]\ncell_m = 1.0\n"));

@@ -105,6 +105,11 @@ impl Feed {
         self.push(|| Fed::Decided { map: map.to_owned(), decision });
     }
 
+    /// Whether anybody wants what is fed.
+    pub fn is_on(&self) -> bool {
+        self.0.is_some()
+    }
+
     /// What was noted since this was asked last, in order.
     pub fn take(&self) -> Vec<Fed> {
         let Some(all) = &self.0 else { return Vec::new() };

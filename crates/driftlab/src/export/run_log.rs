@@ -26,7 +26,7 @@ use super::volumes::LabelledEdge;
 /// | `/tf` | the same; and `vertex_N` in `odom`, by odometry alone, when the vertex is founded |
 /// | `/graph/standing` | before each scan: the vertex that it belongs to, and the body in its frame |
 /// | `/graph/edges` | edges of the pose graph, each batch before the first scan at its newest vertex |
-/// | `/graph/decisions` | what the policy told the map that steers: goals given up, the last look |
+/// | `/graph/decisions` | what the policy told the map that steers: goals given up, also those that the map gives up itself, the last look |
 /// | `/graph/scene` | the graph as lines |
 /// | `/KIND/volumes` | the volumes of a map, each in the frame of its vertex, with labelled edges |
 ///

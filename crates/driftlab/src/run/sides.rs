@@ -113,6 +113,9 @@ pub(super) struct Side {
     feed: Feed,
 }
 
+/// About the robot within this distance is everywhere, metres.
+const EVERYWHERE_M: f64 = 1e9;
+
 impl Side {
     pub(super) fn new(
         inner: Box<dyn ExplorationMap + Send>,
@@ -143,6 +146,23 @@ impl Side {
         if self.inner.corrections() > before {
             self.at_work.note_correction(self.index, spent);
         }
+    }
+
+    /// As [`timed`](Self::timed), for a way to frontier. A grid that finds none gives all frontier up by
+    /// itself; a log has that as a decision, or else its replay would end with frontier that the run had not.
+    fn routing(
+        &mut self,
+        standing: &Standing,
+        work: impl FnOnce(&mut dyn ExplorationMap) -> Option<Route>,
+    ) -> Option<Route> {
+        let gives_up = self.feed.is_on() && matches!(self.inner.kind(), "grid" | "grid_corrected");
+        let open_m = if gives_up { self.inner.frontier().open_m } else { 0.0 };
+        let route = self.timed(work);
+        if route.is_none() && open_m > 0.0 {
+            let decision = gave_up(standing, &Point2::origin(), EVERYWHERE_M, true);
+            self.feed.decided(self.inner.kind(), decision);
+        }
+        route
     }
 }
 
@@ -186,7 +206,7 @@ impl ExplorationMap for Side {
     }
 
     fn route(&mut self, standing: &Standing, clearance_m: f64) -> Option<Route> {
-        self.timed(|map| map.route(standing, clearance_m))
+        self.routing(standing, |map| map.route(standing, clearance_m))
     }
 
     fn look_again(&mut self, probe: &mut dyn MapProbe) -> bool {
@@ -204,7 +224,7 @@ impl ExplorationMap for Side {
         clearance_m: f64,
         comes_now: &dyn Fn(VertexId) -> bool,
     ) -> Option<Route> {
-        self.timed(|map| map.route_to(standing, clearance_m, comes_now))
+        self.routing(standing, |map| map.route_to(standing, clearance_m, comes_now))
     }
 
     fn frontier_at(&self, vertex: VertexId) -> f64 {
