@@ -24,7 +24,7 @@ pub use events::{DepthEvent, Map3dProbe};
 pub use global_union::{UnionCorrection, UnionEvent, UnionMap, UnionParams};
 pub use map::{
     FlightClearance, FlightRoute, FrontierPatch, FrontierPoint, Hovering, Known, Look, Map3d,
-    MapTally, MapWork,
+    MapTally, MapWork, Sights,
 };
 pub use pipeline::{Made, ViewOptions, polyhedron, polyhedron_with};
 pub use plan::{Algorithm, Heuristic, Plan, PlanEvent, PlanOptions, Planner, Target};

@@ -141,6 +141,17 @@ pub enum FlightRoute {
     Fly(Vec<Point3<f64>>),
 }
 
+/// How many views have a point in their image, by what they say of it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Sights {
+    /// Their volume holds it.
+    pub free: usize,
+    /// Something solid stands before it, or it is solid.
+    pub solid: usize,
+    /// They end at frontier before it.
+    pub unknown: usize,
+}
+
 /// What a map takes a point for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Known {
@@ -246,6 +257,29 @@ pub trait Map3d {
     /// What the map takes a point for, by all views near in the graph.
     fn knows(&self, hovering: &Hovering, point_in_body: &Point3<f64>) -> Known;
 
+    /// For each straight line, whether all of it but its last `short_m` metres is free by the views near in the
+    /// graph, whoever took them.
+    fn free_lines(
+        &mut self,
+        hovering: &Hovering,
+        lines_in_body: &[[Point3<f64>; 2]],
+        short_m: f64,
+    ) -> Vec<bool> {
+        let is_free = |point: &Point3<f64>| self.knows(hovering, point) == Known::Free;
+        lines_in_body.iter().map(|line| points_on(line, short_m).all(|p| is_free(&p))).collect()
+    }
+
+    /// Whether any of these points is taken for solid by the views near in the graph.
+    fn meets_solid(&mut self, hovering: &Hovering, points_in_body: &[Point3<f64>]) -> bool {
+        points_in_body.iter().any(|point| self.knows(hovering, point) == Known::Solid)
+    }
+
+    /// How views of other vertices than the one hovered at see a point, as far along the graph as frontier is
+    /// ever held against; a map that does not know its views says nothing.
+    fn sights_of(&mut self, _hovering: &Hovering, _point_in_body: &Point3<f64>) -> Sights {
+        Sights::default()
+    }
+
     /// What the map did so far; all zero for maps that count nothing.
     fn work(&self) -> MapWork {
         MapWork::default()
@@ -253,4 +287,20 @@ pub trait Map3d {
 
     /// Memory held, bytes.
     fn bytes(&self) -> usize;
+}
+
+/// Points of a line are looked at so far apart, metres.
+const LINE_STEP_M: f64 = 0.15;
+
+/// Points along a line but its last `short_m` metres, the far end first: it is what is unknown most often.
+pub(crate) fn points_on(
+    [from, to]: &[Point3<f64>; 2],
+    short_m: f64,
+) -> impl Iterator<Item = Point3<f64>> {
+    let (from, way) = (*from, to - from);
+    let length_m = way.norm();
+    let seen_m = (length_m - short_m).max(0.0);
+    let steps = (seen_m / LINE_STEP_M).ceil().clamp(0.0, 1e6) as usize;
+    let step = way * (seen_m / (length_m * steps.max(1) as f64).max(1e-12));
+    (1..=steps).rev().map(move |i| from + step * i as f64)
 }

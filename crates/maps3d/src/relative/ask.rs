@@ -3,14 +3,16 @@
 use std::collections::BTreeMap;
 
 use nalgebra::{Point3, Vector3};
+use pose::Se3;
 use posegraph::{Scope, ScopeScratch};
 
 use super::book::Cause;
 use super::events::ConsolidationEvent;
 use super::pair::shape_of;
 use super::parts::FrontierPart;
-use super::volume::Shape;
+use super::volume::{LocalVolume, Shape};
 use super::{RelativeMap, ViewState};
+use crate::map::points_on;
 use crate::{FrontierPatch, FrontierPoint, Hovering, Known, Map3dProbe};
 
 /// What falls into one cell and faces one way.
@@ -125,12 +127,60 @@ impl RelativeMap {
         probe.emit(ConsolidationEvent::GivenUp { vertex, place_in_vertex, radius_m });
     }
 
+    /// For each line, whether views in scope hold all of it but its end; retired ones as well.
+    pub(super) fn lines_free(
+        &mut self,
+        hovering: &Hovering,
+        lines_in_body: &[[Point3<f64>; 2]],
+        short_m: f64,
+    ) -> Vec<bool> {
+        self.cover(hovering.vertex);
+        self.take_scope(hovering.vertex, &mut probe::Off);
+        let mut placed: Vec<(Se3, &LocalVolume)> = Vec::new();
+        for row in self.scope.placed() {
+            for &view in self.views_of(row.vertex) {
+                let state = &self.views[view as usize];
+                let root_from_camera = row.root_from_vertex * state.vertex_from_camera;
+                placed.push((root_from_camera.inverse(), &state.volume));
+            }
+        }
+        // What held the last point mostly holds the next one too.
+        let mut last = 0;
+        let mut is_free = |point: &Point3<f64>| {
+            let holds = |at: usize| {
+                let (camera_from_root, volume) = &placed[at];
+                volume.contains(&camera_from_root.transform(point))
+            };
+            if last < placed.len() && holds(last) {
+                return true;
+            }
+            let found = (0..placed.len()).find(|&at| holds(at));
+            last = found.unwrap_or(last);
+            found.is_some()
+        };
+        let in_root = |p: &Point3<f64>| hovering.vertex_from_body.transform(p);
+        lines_in_body
+            .iter()
+            .map(|line| points_on(&line.each_ref().map(in_root), short_m).all(|p| is_free(&p)))
+            .collect()
+    }
+
     /// What the views in scope take a point for: free inside of any, solid where it lies behind an obstacle
     /// of one, no farther than what closes frontier along walls.
     pub(super) fn known_of(&self, hovering: &Hovering, point_in_body: &Point3<f64>) -> Known {
         let mut scope = Scope::default();
         let radius_m = self.params.consolidation_radius_m;
         ScopeScratch::default().place(&self.skeleton, hovering.vertex, radius_m, &mut scope);
+        self.known_within(&scope, hovering, point_in_body)
+    }
+
+    /// The same by the views of a scope around the vertex.
+    pub(super) fn known_within(
+        &self,
+        scope: &Scope<Se3>,
+        hovering: &Hovering,
+        point_in_body: &Point3<f64>,
+    ) -> Known {
         let in_root = hovering.vertex_from_body.transform(point_in_body);
         let behind = Shape { inset_px: 0.0, ..shape_of(Cause::Wall, &self.params) };
         let mut known = Known::Unknown;

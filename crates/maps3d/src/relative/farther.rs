@@ -1,15 +1,24 @@
 //! Frontier that would be given up is held against views farther along the graph first.
 
+use nalgebra::Point3;
+use posegraph::Scope;
 use probe::{Probe, VertexId};
 
 use super::RelativeMap;
 use super::book::Cause;
 use super::events::ConsolidationEvent;
 use super::insert::PlacedView;
-use crate::Map3dProbe;
+use super::volume::Shape;
+use crate::{Hovering, Map3dProbe, Sights};
 
 /// How much farther along the graph, as a multiple of the consolidation radius.
 const FARTHER: f64 = 2.0;
+
+/// A point at this share of its distance lies before everything.
+const NEAR_SHARE: f64 = 1e-3;
+
+/// Within so many pixels of the border of its image a view does not say what it saw.
+const BORDER_PX: f64 = 1.0;
 
 /// Why frontier is closed then.
 const CAUSES: [Cause; 3] = [Cause::Inside, Cause::Wall, Cause::Behind];
@@ -20,7 +29,8 @@ impl RelativeMap {
     /// What was seen from far round, through a gap that the robot does not fit through, may lie in views that
     /// are near in space and far along the graph. The farther the way, the more drift; so it comes last. And
     /// what lies up to twice as far behind walls as is closed otherwise is closed: reduced surfaces of far views
-    /// cut through pillars and furniture, where nobody can ever look.
+    /// cut through pillars and furniture, where nobody can ever look. Whether views contradict each other is not
+    /// asked any more: what is left was looked at from wherever it can be, or from nowhere.
     pub(super) fn compare_with_farther(&mut self, vertex: VertexId, probe: &mut dyn Map3dProbe) {
         self.cover(vertex);
         let radius_m = FARTHER * self.params.consolidation_radius_m;
@@ -31,7 +41,8 @@ impl RelativeMap {
             let (scope, skeleton) = (&self.scope, &self.skeleton);
             probe.emit(ConsolidationEvent::ScopeTaken { scope, skeleton });
         }
-        let placed = self.placed_views();
+        // A view that was in doubt may have been retired because it closed nothing.
+        let placed = self.all_placed_views();
         let own: Vec<PlacedView> = placed.iter().filter(|own| own.row == 0).copied().collect();
         self.work.touched.clear();
         for of in &own {
@@ -42,5 +53,38 @@ impl RelativeMap {
             }
         }
         self.measure_touched();
+    }
+
+    /// What views of other vertices within twice the consolidation radius say of a point; retired ones as well.
+    pub(super) fn sights(&mut self, hovering: &Hovering, point_in_body: &Point3<f64>) -> Sights {
+        self.cover(hovering.vertex);
+        let radius_m = FARTHER * self.params.consolidation_radius_m;
+        let mut scope = Scope::default();
+        self.scratch.place(&self.skeleton, hovering.vertex, radius_m, &mut scope);
+        let in_root = hovering.vertex_from_body.transform(point_in_body);
+        let mut sights = Sights::default();
+        for row in scope.placed().iter().skip(1) {
+            let in_vertex = row.root_from_vertex.inverse_transform(&in_root);
+            for &view in self.views_of(row.vertex) {
+                let state = &self.views[view as usize];
+                let point = state.vertex_from_camera.inverse_transform(&in_vertex);
+                if !state.volume.shows(&point, BORDER_PX) {
+                    continue;
+                }
+                // Right before the camera every direction of the image is free: that names the face.
+                let ends_at = state.volume.holds(&(point * NEAR_SHARE), Shape::PLAIN);
+                let is_frontier = ends_at
+                    .is_some_and(|face| state.volume.frontier().binary_search(&face).is_ok());
+                let of = if state.volume.contains(&point) {
+                    &mut sights.free
+                } else if ends_at.is_some() && !is_frontier {
+                    &mut sights.solid
+                } else {
+                    &mut sights.unknown
+                };
+                *of += 1;
+            }
+        }
+        sights
     }
 }

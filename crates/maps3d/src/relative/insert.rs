@@ -118,14 +118,19 @@ impl RelativeMap {
 
     /// The active views of the scope at hand, by rising distance of their vertices.
     pub(super) fn placed_views(&self) -> Vec<PlacedView> {
+        let mut placed = self.all_placed_views();
+        placed.retain(|placed| !self.views[placed.view as usize].retired);
+        placed
+    }
+
+    /// The views of the scope at hand, by rising distance of their vertices, retired ones as well.
+    pub(super) fn all_placed_views(&self) -> Vec<PlacedView> {
         let mut placed = Vec::new();
         for (row, at) in self.scope.placed().iter().enumerate() {
             for &view in self.views_of(at.vertex) {
                 let state = &self.views[view as usize];
-                if !state.retired {
-                    let root_from_camera = at.root_from_vertex * state.vertex_from_camera;
-                    placed.push(PlacedView { view, row: row as u32, root_from_camera });
-                }
+                let root_from_camera = at.root_from_vertex * state.vertex_from_camera;
+                placed.push(PlacedView { view, row: row as u32, root_from_camera });
             }
         }
         placed

@@ -12,7 +12,7 @@ use super::pair::Work;
 use super::{RelativeParams, ViewState};
 use crate::{
     FlightClearance, FlightRoute, FrontierPatch, Hovering, Known, Look, Map3d, Map3dProbe,
-    MapTally, Maps3dError,
+    MapTally, Maps3dError, Sights,
 };
 
 /// Star-shaped polyhedra on a pose graph, with consolidated frontier (\[ISRR19\] 4.4 carried out in space).
@@ -128,7 +128,7 @@ impl RelativeMap {
 
 /// The skeleton of a map without vertices.
 pub(super) fn empty_skeleton(params: &RelativeParams) -> Skeleton<Se3> {
-    Skeleton::new(params.consolidation_radius_m)
+    Skeleton::new(params.consolidation_radius_m).weigh_places(params.place_weight)
 }
 
 impl Map3d for RelativeMap {
@@ -227,6 +227,26 @@ impl Map3d for RelativeMap {
 
     fn knows(&self, hovering: &Hovering, point_in_body: &Point3<f64>) -> Known {
         self.known_of(hovering, point_in_body)
+    }
+
+    fn meets_solid(&mut self, hovering: &Hovering, points_in_body: &[Point3<f64>]) -> bool {
+        self.take_scope(hovering.vertex, &mut probe::Off);
+        points_in_body
+            .iter()
+            .any(|point| self.known_within(&self.scope, hovering, point) == Known::Solid)
+    }
+
+    fn sights_of(&mut self, hovering: &Hovering, point_in_body: &Point3<f64>) -> Sights {
+        self.sights(hovering, point_in_body)
+    }
+
+    fn free_lines(
+        &mut self,
+        hovering: &Hovering,
+        lines_in_body: &[[Point3<f64>; 2]],
+        short_m: f64,
+    ) -> Vec<bool> {
+        self.lines_free(hovering, lines_in_body, short_m)
     }
 
     fn bytes(&self) -> usize {

@@ -7,6 +7,7 @@ use pose::Se3;
 use probe::{EdgeId, PathId, Probe};
 
 use super::book::{Cause, Closing, ClosingId};
+use super::doubt::Doubt;
 use super::events::ConsolidationEvent;
 use super::grid::{self, FaceGrid};
 use super::ledger::OpenPart;
@@ -24,6 +25,7 @@ pub(super) struct Work {
     after: StepRings,
     /// Faces changed by the pair at hand: index, what is open now.
     pub changed: Vec<(usize, OpenPart)>,
+    doubt: Doubt,
     /// Views whose ledgers changed, each with one that closed something there.
     pub touched: Vec<(u32, u32)>,
 }
@@ -74,6 +76,8 @@ impl RelativeMap {
             counts[usize::from(piece.face)] = true;
         }
         let mut path_id: Option<PathId> = None;
+        let mut taken = false;
+        let cause_may_be_doubted = !causes.contains(&Cause::Behind);
         for &cause in causes {
             if cause != Cause::Inside && self.params.wall_closing_m <= 0.0 {
                 continue;
@@ -82,6 +86,10 @@ impl RelativeMap {
             let (view, against) =
                 (&self.views[pair.view as usize], &self.views[pair.against as usize]);
             work.close(view, &against.volume, pair, cause, &self.params, |face| counts[face]);
+            // Looks of one vertex are exact to each other. What would be given up is closed by whoever can.
+            if view.vertex != against.vertex && cause_may_be_doubted {
+                work.leave_doubtful(view, against, pair, &mut taken, &self.params);
+            }
             if !work.changed.is_empty() {
                 let path = *path_id.get_or_insert_with(|| self.book.remember(path()));
                 let (view, by, step) = (pair.view, pair.against, self.looks);
@@ -183,6 +191,29 @@ impl Work {
                 self.changed.push((index, after));
             }
         }
+    }
+
+    /// Takes out of `changed` the faces about which the two views contradict each other. The evidence is gathered
+    /// once for a pair, when `taken` is false.
+    fn leave_doubtful(
+        &mut self,
+        view: &ViewState,
+        against: &ViewState,
+        pair: &Pair,
+        taken: &mut bool,
+        params: &RelativeParams,
+    ) {
+        if self.changed.is_empty() || params.contradiction_share >= 1.0 {
+            return;
+        }
+        if !std::mem::replace(taken, true) {
+            let camera_from_against = &pair.camera_from_against;
+            self.doubt.take(&view.volume, &against.volume, camera_from_against, params);
+        }
+        let doubt = &self.doubt;
+        self.changed.retain(|(face, _)| {
+            !doubt.is_about(view.volume.points(view.volume.frontier()[*face]), params)
+        });
     }
 
     /// What is left of the open part of a face beside a volume; `None` where nothing is taken.

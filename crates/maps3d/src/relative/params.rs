@@ -12,6 +12,9 @@ pub struct RelativeParams {
     pub view: ViewOptions,
     /// Radius of the consolidation scope along the graph, metres (R in \[ISRR19\] 4.3).
     pub consolidation_radius_m: f64,
+    /// What a metre of a place edge counts as when shortest paths are sought, above 0. Place edges do not drift:
+    /// below 1, placement leans on them and on less odometry.
+    pub place_weight: f64,
     /// By how much a volume is smaller than its polyhedron where it closes frontier of others, metres of
     /// depth: two looks from one place do not close each other's frontier.
     pub shrink_m: f64,
@@ -23,6 +26,12 @@ pub struct RelativeParams {
     /// Frontier so near behind an obstacle face of another view, along its rays, is closed as wall,
     /// metres; 0 for none. Reduced and drifting surfaces leave bits along walls that no volume covers.
     pub wall_closing_m: f64,
+    /// What is solid in one view and lies so deep inside of what another saw to be free contradicts its
+    /// placement, metres.
+    pub contradiction_m: f64,
+    /// A view does not close frontier about which more than this share of the evidence contradicts where it is
+    /// placed; 1 closes whatever is said.
+    pub contradiction_share: f64,
     /// Frontier that hangs together over less than this does not count, square metres.
     pub sliver_m2: f64,
     /// Large frontier is told as points about so far apart, metres.
@@ -40,10 +49,13 @@ impl Default for RelativeParams {
         Self {
             view: ViewOptions { reduce, frontier_share: 0.5, ..ViewOptions::default() },
             consolidation_radius_m: 12.0,
+            place_weight: 0.25,
             shrink_m: 0.01,
             inset_px: 0.3,
             grazing_rad: 8f64.to_radians(),
             wall_closing_m: 0.3,
+            contradiction_m: 0.3,
+            contradiction_share: 0.5,
             sliver_m2: 0.05,
             point_spacing_m: 0.8,
         }
@@ -79,6 +91,8 @@ impl RelativeParams {
             ("shrink_m", self.shrink_m),
             ("inset_px", self.inset_px),
             ("wall_closing_m", self.wall_closing_m),
+            ("contradiction_m", self.contradiction_m),
+            ("contradiction_share", self.contradiction_share),
             ("sliver_m2", self.sliver_m2),
         ] {
             if !(0.0..=1e6).contains(&found) {
@@ -88,6 +102,10 @@ impl RelativeParams {
                     expected: "a number from 0 to 1e6",
                 });
             }
+        }
+        if !(1e-3..=1e3).contains(&self.place_weight) {
+            let (option, found) = ("place_weight", self.place_weight);
+            return Err(Maps3dError::Option { option, found, expected: "from 0.001 to 1000" });
         }
         if !(0.0..1.0).contains(&self.inset_px) {
             let (option, found) = ("inset_px", self.inset_px);

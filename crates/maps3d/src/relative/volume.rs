@@ -226,6 +226,23 @@ impl LocalVolume {
         best.1
     }
 
+    /// The point of the surface at a place of the image, in the frame `camera`, where it is an obstacle.
+    pub(super) fn obstacle_at(&self, place: [f64; 2]) -> Option<Point3<f64>> {
+        let cell = self.cells.cell_of(place);
+        for &face in self.cells.faces(cell) {
+            let corners = self.triangles[face as usize];
+            let shares = shares(corners.map(|corner| self.place(corner)), place);
+            if shares.iter().all(|share| *share >= 0.0) {
+                let is_frontier = self.frontier.binary_search(&face).is_ok();
+                let inverse = |i: usize| shares[i] / self.depth_m(corners[i], Shape::PLAIN);
+                let depth_m = 1.0 / (inverse(0) + inverse(1) + inverse(2));
+                let point = || self.camera.point_in_camera(place[0], place[1], depth_m);
+                return (!is_frontier && depth_m.is_finite()).then(point);
+            }
+        }
+        None
+    }
+
     /// A vertex of a shape of the volume, before its sides move inwards, in the frame `camera`, metres.
     pub(super) fn shaped(&self, corner: u16, shape: Shape) -> Point3<f64> {
         if corner as usize == self.pixels.len() {

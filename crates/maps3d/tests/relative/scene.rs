@@ -47,13 +47,14 @@ pub fn reduced_to(vertices: usize) -> ViewOptions {
     ViewOptions { reduce, ..ViewOptions::default() }
 }
 
-/// Volumes as they are: neither smaller, nor with walls around them.
+/// Volumes as they are: neither smaller, nor with walls around them, and never in doubt.
 pub fn bare(vertices: usize) -> RelativeParams {
     RelativeParams {
         view: reduced_to(vertices),
         shrink_m: 0.0,
         inset_px: 0.0,
         wall_closing_m: 0.0,
+        contradiction_share: 1.0,
         sliver_m2: 0.0,
         ..RelativeParams::default()
     }
