@@ -2,7 +2,7 @@
 
 use std::time::{Duration, Instant};
 
-use explore::{Ending, FlightExplorer, FlightParams, FlightReport};
+use explore::{Ending, FlightExplorer, FlightGiveUp, FlightParams, FlightReport};
 use maps3d::Map3d;
 use metrics::FlightWitness;
 use sensing::FlyingRobot;
@@ -236,6 +236,15 @@ impl Rider {
         let left = map.tally();
         let work = map.work();
         let world_from_odom = witness.robot().world().world_from_start() * report.odom_from_body;
+        // What was given up, and why, is of the map that steers.
+        let given_up = |why: FlightGiveUp| match steers {
+            true => explorer.given_up_m2(why),
+            false => (0.0, 0.0),
+        };
+        let seen_nowhere_m2 = given_up(FlightGiveUp::Unreachable).0;
+        let unreachable_m2 =
+            (seen_nowhere_m2 + given_up(FlightGiveUp::Hidden).0).min(left.given_up_m2);
+        let (_, ignored_piece_m2) = given_up(FlightGiveUp::NothingNew);
         FlightMetrics {
             believed_complete: verdict.believed_complete,
             coverage: verdict.coverage,
@@ -257,9 +266,10 @@ impl Rider {
             cells_total: verdict.cells_total as u64,
             cells_reachable: verdict.cells_reachable as u64,
             frontier_left_m2: left.open_m2,
-            frontier_ignored_m2: left.sliver_m2 + left.given_up_m2,
-            frontier_ignored_largest_m2: left.largest_sliver_m2,
+            frontier_ignored_m2: left.sliver_m2 + (left.given_up_m2 - unreachable_m2).max(0.0),
+            frontier_ignored_largest_m2: left.largest_sliver_m2.max(ignored_piece_m2),
             frontier_given_up_m2: left.given_up_m2,
+            frontier_unreachable_m2: unreachable_m2,
             given_up: explorer.given_up(),
             backtracking_share: explorer.backtracking_share(),
             turning_rad: tally.turning_rad,

@@ -42,12 +42,15 @@ pub struct FlightMetrics {
     pub cells_reachable: u64,
     /// Frontier left that counts, square metres.
     pub frontier_left_m2: f64,
-    /// Frontier left that does not, slivers and what was given up, square metres.
+    /// Frontier left that does not: slivers, and what was given up though it may be seen, square metres.
     pub frontier_ignored_m2: f64,
-    /// The largest sliver among it, square metres.
+    /// The largest piece among it, square metres.
     pub frontier_ignored_largest_m2: f64,
-    /// Frontier that was given up because it could not be looked at, square metres.
+    /// Frontier that was given up, whatever the reason, square metres.
     pub frontier_given_up_m2: f64,
+    /// Of it, what no place has in view in all that is believed to be free, and what something solid stands before
+    /// from wherever it was looked at, square metres; not counted as ignored.
+    pub frontier_unreachable_m2: f64,
     /// Pieces of frontier given up.
     pub given_up: u64,
     /// Share of the distance that was flown along known ways.

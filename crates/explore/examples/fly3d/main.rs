@@ -11,7 +11,7 @@ mod points_map;
 use std::sync::Arc;
 use std::time::Instant;
 
-use explore::{FlightEvent, FlightExplorer, FlightParams};
+use explore::{FlightEvent, FlightExplorer, FlightGiveUp, FlightParams};
 use maps3d::{
     ConsolidationEvent, DepthEvent, Map3d, RelativeMap, RelativeParams, UnionEvent, UnionMap,
     UnionParams,
@@ -24,7 +24,7 @@ use worlds::space::{
 use worlds::{FlyerParams, SimFlyer, World3d};
 
 /// Prints what happens, where asked to.
-struct Told(bool, Vec<(probe::VertexId, geometry::Point3, f64, explore::FlightGiveUp)>);
+struct Told(bool, Vec<(probe::VertexId, geometry::Point3, f64, FlightGiveUp)>);
 
 impl Probe<FlightEvent<'_>> for Told {
     fn emit(&mut self, event: FlightEvent<'_>) {
@@ -119,10 +119,14 @@ fn main() {
         let number = || value.parse::<f64>().expect("a number");
         match key {
             "v" => verbose = true,
+            "doubt" => relative.contradiction_share = number(),
+            "doubt_m" => relative.contradiction_m = number(),
+            "weight" => relative.place_weight = number(),
             "steps" => flight.max_steps = number() as u64,
             "slip" => params.odometry.sigma_translation = number(),
             "yaw" => params.odometry.sigma_rotation_rad = number().to_radians(),
             "columns" => columns = Some(number() as usize),
+            "tries" => flight.tries = number() as usize,
             "around" => flight.around_m = number(),
             "fov" => params.camera.fov_down_rad = number().to_radians(),
             "hop" => flight.hop_m = number(),
@@ -214,7 +218,7 @@ fn main() {
         (start * report.odom_from_body).inverse_mul(&witness.world_from_body()).translation.norm();
     println!(
         "{place} {seed} {scale} {kind}: {:?} coverage {:.4} flown {:.0} m d_max {:?} steps {} looks {} vertices {} \
-         collisions {} bumps {} clearance {:.3} open {:.3} sliver {:.3} largest {:.3} given_up {:.3} ({}) odom error {odom_error_m:.2} m worst {worst_m:.2} m bytes per view {:.1} KiB {:.1} s",
+         collisions {} bumps {} clearance {:.3} open {:.3} sliver {:.3} largest {:.3} given_up {:.3} ({}) unreachable_m2 {:.3} {:.3} hidden_m2 {:.3} {:.3} ignored_m2 {:.3} {:.3} odom error {odom_error_m:.2} m worst {worst_m:.2} m bytes per view {:.1} KiB {:.1} s",
         report.ending,
         verdict.coverage,
         verdict.distance_m,
@@ -230,6 +234,12 @@ fn main() {
         report.tally.largest_sliver_m2,
         report.tally.given_up_m2,
         explorer.given_up(),
+        explorer.given_up_m2(FlightGiveUp::Unreachable).0,
+        explorer.given_up_m2(FlightGiveUp::Unreachable).1,
+        explorer.given_up_m2(FlightGiveUp::Hidden).0,
+        explorer.given_up_m2(FlightGiveUp::Hidden).1,
+        explorer.given_up_m2(FlightGiveUp::NothingNew).0,
+        explorer.given_up_m2(FlightGiveUp::NothingNew).1,
         explorer.maps()[0].bytes() as f64 / 1024.0 / explorer.looks() as f64,
         started.elapsed().as_secs_f64()
     );

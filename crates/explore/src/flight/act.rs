@@ -6,10 +6,11 @@ use pose::Se3;
 use probe::VertexId;
 use sensing::FlyingRobot;
 
+use super::aim::BORDER_PX;
 use super::events::FlightGiveUp;
 use super::memory::Target;
 use super::nearby::{Near, legs_to, nearby};
-use super::viewpoint::{Aim, Plan};
+use super::viewpoint::{Aim, Plan, STAYS_M};
 use super::{FlightEvent, FlightExplorer, FlightProbe};
 use crate::{Ending, State};
 
@@ -18,6 +19,10 @@ const OTHERS: usize = 16;
 /// The same for frontier that was put off, and how much farther along the graph they may be.
 const FAR_OTHERS: usize = 32;
 const FAR_AROUND: f64 = 2.0;
+/// What is solid so much before frontier hides it, metres of depth.
+const HIDES_M: f64 = 0.1;
+/// So many views have to say that something solid stands before a piece that was looked at.
+const SIGHTS: usize = 3;
 
 impl FlightExplorer {
     pub(super) fn act(&mut self, robot: &mut dyn FlyingRobot, probe: &mut dyn FlightProbe) {
@@ -27,8 +32,8 @@ impl FlightExplorer {
         }
         if let Some(plan) = self.plan.take()
             && plan.at == self.hovering.vertex
+            && self.carry_out(robot, plan, probe)
         {
-            self.carry_out(robot, plan, probe);
             return;
         }
         // Each round but the last puts something off, or gives it up.
@@ -36,11 +41,13 @@ impl FlightExplorer {
             self.change_state(State::Reactive, probe);
             let here = self.hovering.vertex;
             self.ask_frontiers(here);
+            let least_m2 = if self.later.is_late() { 0.0 } else { self.params.turn_gain_m2 };
             if self.looks_here < self.params.looks_at_a_place
-                && let Some(yaw_rad) = self.best_yaw()
+                && let Some(yaw_rad) = self.best_yaw(least_m2)
             {
                 self.turn_to(robot, yaw_rad, probe);
                 self.look(robot, probe);
+                self.settle_targets();
                 return;
             }
             self.targets.clear();
@@ -64,9 +71,27 @@ impl FlightExplorer {
         self.patches = patches;
     }
 
-    /// Flies to where a plan says, and notes what is to be looked at from there.
-    fn carry_out(&mut self, robot: &mut dyn FlyingRobot, plan: Plan, probe: &mut dyn FlightProbe) {
+    /// Flies to where a plan says, and notes what is to be looked at from there. Where nobody looked that way
+    /// with some room on both sides, it is looked that way first, and the flight comes next; false where that
+    /// look showed something in the way.
+    fn carry_out(
+        &mut self,
+        robot: &mut dyn FlyingRobot,
+        plan: Plan,
+        probe: &mut dyn FlightProbe,
+    ) -> bool {
         let here = self.hovering.vertex;
+        let stays = plan.place.coords.norm() < STAYS_M;
+        if let Some(yaw_rad) = self.blind_yaw(&plan.place).filter(|_| !stays) {
+            self.turn_to(robot, yaw_rad, probe);
+            self.look(robot, probe);
+            self.plan = Some(plan);
+            return true;
+        }
+        let is_steered = !stays && !plan.targets.is_empty();
+        if is_steered && !(self.may_fly(here, &plan.place) && self.may_leave(here, &plan.place)) {
+            return false;
+        }
         // The owners are near: their frames are known along the graph.
         let near = nearby(&self.graph, here, FAR_AROUND * self.params.around_m + self.params.hop_m);
         for target in &plan.targets {
@@ -75,14 +100,34 @@ impl FlightExplorer {
             let from_in_owner = owner.root_from_vertex.inverse_transform(&plan.place);
             self.tries.note(target, from_in_owner, self.params.same_place_m);
         }
-        self.fly_to(robot, &plan.place, probe);
-        let there_from_here = Se3::new(-plan.place.coords, Se3::identity().rotation);
+        let there_from_here = if stays {
+            Se3::identity()
+        } else {
+            self.fly_to(robot, &plan.place, probe);
+            Se3::new(-plan.place.coords, Se3::identity().rotation)
+        };
         self.targets = plan.targets.iter().map(|target| target.moved(&there_from_here)).collect();
         self.patches.clear();
-        if let Some(yaw_rad) = self.best_yaw() {
+        if let Some(yaw_rad) = self.best_yaw(0.0) {
             self.turn_to(robot, yaw_rad, probe);
         }
         self.look(robot, probe);
+        self.settle_targets();
+        true
+    }
+
+    /// Notes of what the robot came for, and has in view now, whether something solid stands before it.
+    fn settle_targets(&mut self) {
+        let Some(seen) = self.seen.get(self.hovering.vertex) else { return };
+        let same_m = self.params.same_place_m;
+        let tries = &mut self.tries;
+        self.targets.retain(|target| {
+            let is_hidden = seen.hides(&target.at, HIDES_M);
+            if let Some(is_hidden) = is_hidden {
+                tries.note_seen(target, is_hidden, same_m);
+            }
+            is_hidden.is_none() && !seen.has_in_view(&target.at, BORDER_PX)
+        });
     }
 
     /// Sets out to look at the frontier of a vertex, which was asked for; false when all that happened is
@@ -95,13 +140,19 @@ impl FlightExplorer {
     ) -> bool {
         let (same_m, tries) = (self.params.same_place_m, self.params.tries);
         let targets: Vec<Target> = self.patches.iter().flat_map(targets_of).collect();
-        let in_vain = self.visits.get(&owner).is_some_and(|v| v.0 > self.params.visits_in_vain);
-        let (fresh, spent): (Vec<Target>, Vec<Target>) =
-            targets.iter().partition(|target| !in_vain && self.tries.count(target, same_m) < tries);
+        let is_by_vertex = self.maps[0].is_by_vertex();
+        // Later on one look at each piece is enough of a bound.
+        let in_vain = !self.later.is_late()
+            && self.visits.get(&owner).is_some_and(|v| v.0 > self.params.visits_in_vain);
+        let (fresh, spent): (Vec<Target>, Vec<Target>) = targets.iter().partition(|target| {
+            // A map with one global frame holds what was seen against all of its frontier at once.
+            let was_seen = is_by_vertex && self.tries.was_seen(target, same_m);
+            !in_vain && !was_seen && self.tries.count(target, same_m) < tries
+        });
         if !self.later.is_last() && self.plan_look(robot, owner, &fresh, probe) {
             return true;
         }
-        if self.maps[0].is_by_vertex() && !self.later.is_last() {
+        if is_by_vertex && !self.later.is_last() {
             self.later.put_off(owner);
             return false;
         }
@@ -109,10 +160,23 @@ impl FlightExplorer {
             [(spent, FlightGiveUp::NothingNew), (fresh, FlightGiveUp::Unreachable)]
         {
             for target in targets {
+                let is_hidden =
+                    self.tries.is_hidden(&target, same_m) || self.stands_before(owner, &target.at);
+                let was_tried = self.tries.count(&target, same_m) > 0;
+                let is_hidden = was_tried && is_hidden;
+                let why = if is_hidden { FlightGiveUp::Hidden } else { why };
                 self.give_up(owner, &target.at, target.area_m2, why, probe);
             }
         }
         false
+    }
+
+    /// Whether several views have a point in their image, and where they say something, something solid stands
+    /// before it.
+    fn stands_before(&mut self, owner: VertexId, place_in_vertex: &Point3) -> bool {
+        let hovering = Hovering { vertex: owner, vertex_from_body: Se3::identity() };
+        let sights = self.maps[0].sights_of(&hovering, place_in_vertex);
+        sights.free == 0 && sights.solid >= SIGHTS
     }
 
     /// Sets out to a place that has some targets of a vertex in view, if there is one.
@@ -138,16 +202,21 @@ impl FlightExplorer {
             };
             near.sort_by(|a, b| apart(a).total_cmp(&apart(b)).then(a.vertex.cmp(&b.vertex)));
         }
-        let aims =
-            if self.later.is_late() { &[Aim::Look, Aim::Approach][..] } else { &[Aim::Look] };
+        let aims = if self.later.is_late() {
+            &[Aim::Look, Aim::Approach, Aim::Believe][..]
+        } else {
+            &[Aim::Look]
+        };
         for &aim in aims {
             for other in near.iter().take(count + 1) {
                 let other_from_owner = other.root_from_vertex.inverse();
                 let moved: Vec<Target> =
                     targets.iter().map(|target| target.moved(&other_from_owner)).collect();
                 let from = (other.vertex, &other.root_from_vertex);
-                if let Some(plan) = self.choose_viewpoint(aim, from, &moved, probe) {
-                    self.go_to(robot, plan, probe);
+                let plan = self.choose_viewpoint(aim, from, &moved, probe);
+                if let Some(plan) = plan
+                    && self.go_to(robot, plan, probe)
+                {
                     return true;
                 }
             }
@@ -155,16 +224,21 @@ impl FlightExplorer {
         false
     }
 
-    /// Carries a plan out here, or sets out to where it begins.
-    fn go_to(&mut self, robot: &mut dyn FlyingRobot, plan: Plan, probe: &mut dyn FlightProbe) {
+    /// Carries a plan out here, or sets out to where it begins; false where it cannot be.
+    fn go_to(
+        &mut self,
+        robot: &mut dyn FlyingRobot,
+        plan: Plan,
+        probe: &mut dyn FlightProbe,
+    ) -> bool {
         if plan.at == self.hovering.vertex {
-            self.carry_out(robot, plan, probe);
-            return;
+            return self.carry_out(robot, plan, probe);
         }
         let all = nearby(&self.graph, self.hovering.vertex, f64::INFINITY);
         self.way = legs_to(&all, plan.at);
         self.plan = Some(plan);
         self.set_out(robot, probe);
+        true
     }
 
     /// The first leg of a way.
@@ -203,7 +277,6 @@ impl FlightExplorer {
             let goal = legs.last().map_or(hovering.vertex, |&(goal, _)| goal);
             if self.later.comes_again(goal) {
                 // What was put off once is flown for only when there is something to do.
-                self.note_visit(goal);
                 if self.later.is_last() {
                     self.maps[0].compare_farther(goal, &mut *probe);
                 }
@@ -212,7 +285,11 @@ impl FlightExplorer {
                     self.later.put_off(goal);
                     return false;
                 }
-                return self.go_look(robot, goal, probe);
+                let sets_out = self.go_look(robot, goal, probe);
+                if sets_out {
+                    self.note_visit(goal);
+                }
+                return sets_out;
             }
         }
         probe.emit(FlightEvent::RoutePlanned { hovering, route: &route, length_m });
@@ -237,8 +314,7 @@ impl FlightExplorer {
                 let distance_m = place.coords.norm();
                 let share = (self.params.hop_m / distance_m.max(1e-9)).min(1.0);
                 let plan = Plan { at: hovering.vertex, place: place * share, targets: Vec::new() };
-                self.carry_out(robot, plan, probe);
-                true
+                self.carry_out(robot, plan, probe)
             }
         }
     }
@@ -259,6 +335,8 @@ impl FlightExplorer {
         probe: &mut dyn FlightProbe,
     ) {
         self.given_up += 1;
+        let sum = self.given_up_by.entry(why).or_default();
+        *sum = (sum.0 + area_m2, sum.1.max(area_m2));
         let place_in_vertex = *place_in_vertex;
         probe.emit(FlightEvent::FrontierGivenUp { owner, place_in_vertex, area_m2, why });
         let hovering = Hovering { vertex: owner, vertex_from_body: Se3::identity() };

@@ -10,10 +10,34 @@ pub(super) const BORDER_PX: f64 = 3.0;
 /// How far within an image a direction is that was looked into, pixels. Its sides are frontier themselves.
 const LOOKED_PX: f64 = 1.5;
 
+/// What must have been looked at on both sides of a flight, radians: beside it a wall may stand, and be as
+/// near as noise pushed the robot.
+const ROOM_RAD: f64 = 30.0 * std::f64::consts::PI / 180.0;
+
 impl FlightExplorer {
+    /// The yaw towards a place in the frame of the vertex, where nobody looked that way from here with room on
+    /// both sides; `None` where somebody did, or looking would not help.
+    pub(super) fn blind_yaw(&self, place: &Point3) -> Option<f64> {
+        let lens = self.lens?;
+        let seen = self.seen.get(self.hovering.vertex)?;
+        if place.x.hypot(place.y) < 1e-3 {
+            return None;
+        }
+        let yaw_rad = place.y.atan2(place.x);
+        let sides = [-1.0, 0.0, 1.0].map(|side| {
+            let (sin, cos) = (yaw_rad + side * ROOM_RAD).sin_cos();
+            Point3::new(cos, sin, 0.0)
+        });
+        let is_blind = sides.iter().any(|side| !seen.has_in_view(side, 0.0));
+        let helps = sides.iter().all(|side| lens.sees(yaw_rad, side, 0.0));
+        (is_blind && helps).then_some(yaw_rad)
+    }
+
     /// The yaw in the frame of the vertex from which most of the frontier that nobody looked at from here
     /// comes into view: targets that the robot came for, and what the views of here leave open.
-    pub(super) fn best_yaw(&self) -> Option<f64> {
+    ///
+    /// `None` where that is less than `least_m2`.
+    pub(super) fn best_yaw(&self, least_m2: f64) -> Option<f64> {
         let lens = self.lens?;
         let here = self.hovering.vertex;
         let seen = self.seen.get(here)?;
@@ -40,7 +64,7 @@ impl FlightExplorer {
                     best = Some((gain_m2, yaw_rad));
                 }
             }
-            best.filter(|(gain_m2, _)| *gain_m2 >= self.params.turn_gain_m2)
+            best.filter(|(gain_m2, _)| *gain_m2 > 0.0 && *gain_m2 >= least_m2)
         };
         // Quarter turns overlap least; any other yaw only where it shows clearly more.
         let first_rad = seen.first_yaw_rad.unwrap_or(self.yaw_rad());

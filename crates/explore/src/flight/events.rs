@@ -11,10 +11,13 @@ use super::Target;
 use crate::{Ending, State};
 
 /// Why frontier was given up.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum FlightGiveUp {
-    /// No place that the robot can get to has it in view.
+    /// No place that the robot can get to has it in view: not by what was seen from there, and not by all that
+    /// is believed to be free.
     Unreachable,
+    /// It was looked at, and from wherever that was, something solid stands before it.
+    Hidden,
     /// It was looked at from as many places as are tried, or visited often in vain, and is still there.
     NothingNew,
 }

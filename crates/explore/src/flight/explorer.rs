@@ -11,7 +11,7 @@ use super::later::Later;
 use super::memory::{Target, Tries};
 use super::panorama::{Lens, Panorama};
 use super::viewpoint::Plan;
-use super::{FlightEvent, FlightParams, FlightProbe};
+use super::{FlightEvent, FlightGiveUp, FlightParams, FlightProbe};
 use crate::{Ending, State};
 
 /// What one step in space came to.
@@ -52,6 +52,8 @@ pub struct FlightExplorer {
     pub(super) flown_m: f64,
     pub(super) backtracked_m: f64,
     pub(super) given_up: u64,
+    /// By reason: area given up, and the largest piece, square metres.
+    pub(super) given_up_by: BTreeMap<FlightGiveUp, (f64, f64)>,
     /// What is to be looked at from here, in the frame of the vertex.
     pub(super) targets: Vec<Target>,
     pub(super) looks_here: u32,
@@ -63,6 +65,8 @@ pub struct FlightExplorer {
     /// By vertex: how often the robot came for its frontier in vain, and what was left.
     pub(super) visits: BTreeMap<VertexId, (u32, f64)>,
     pub(super) patches: Vec<FrontierPatch>,
+    /// By vertex and place, what a straight flight keeps from everything.
+    pub(super) margins_known: BTreeMap<(VertexId, [u64; 3]), u8>,
     pub(super) later: Later,
 }
 
@@ -87,6 +91,7 @@ impl FlightExplorer {
             flown_m: 0.0,
             backtracked_m: 0.0,
             given_up: 0,
+            given_up_by: BTreeMap::new(),
             targets: Vec::new(),
             looks_here: 0,
             way: Vec::new(),
@@ -94,6 +99,7 @@ impl FlightExplorer {
             tries: Tries::default(),
             visits: BTreeMap::new(),
             patches: Vec::new(),
+            margins_known: BTreeMap::new(),
             later: Later::default(),
         }
     }
@@ -172,6 +178,11 @@ impl FlightExplorer {
     /// Pieces of frontier given up.
     pub fn given_up(&self) -> u64 {
         self.given_up
+    }
+
+    /// Area of the frontier that was given up for a reason, and of the largest piece of it, square metres.
+    pub fn given_up_m2(&self, why: FlightGiveUp) -> (f64, f64) {
+        self.given_up_by.get(&why).copied().unwrap_or_default()
     }
 
     /// Share of the distance that was flown along known ways.

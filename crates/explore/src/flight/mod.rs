@@ -18,22 +18,31 @@
 //!    depth images themselves are asked beside the map: reduced polyhedra are a few centimetres off. A flight
 //!    is judged by the views of the vertex where it starts, and by nothing else: they know no drift. Where no
 //!    place will do, the views of vertices nearby are tried in the same way.
+//!    Before it flies, the robot looks that way, if nobody looked 30 degrees to both sides of it from here: noise
+//!    may have pushed it to a wall that it never saw. Above and below it has no eyes; there it is held against
+//!    what others saw that the first half metre meets nothing solid.
 //! 3. **Put off** (`later.rs`). Frontier that no place has in view now waits: often looks from elsewhere close
 //!    it, or lead to a place that has it in view. When nothing else is left a new round begins, in which more
 //!    vertices are tried, those nearest to the frontier first; and where it cannot be looked at from any of
 //!    them, it is *approached*: the robot flies to where it is nearer to it, along a straight way that it saw
-//!    to be free, and goes on from there. Nothing is flown for before such a place is known.
+//!    to be free, and goes on from there. Where that is not possible either, places are *believed* to have it in
+//!    view: the line of sight is free by the views near in the graph, whoever took them, and the place may be a
+//!    vertex itself, where turning is enough. Nothing is flown for before such a place is known.
+//!    What has been looked at once, so that a depth was read in its direction, is not looked at again: it was
+//!    closed by that look, or it is not where the robot took it to be.
 //! 4. **Go elsewhere** (`act.rs`). With no frontier left here, the map names the way along the graph to the
 //!    nearest vertex with some, and the robot repeats it.
 //! 5. **Give up.** A round in which nobody looked at anything is followed by the last one. What is left is held
-//!    against what was seen farther along the graph; frontier that still counts and that no place has in view
-//!    is given up as `Unreachable`; what was looked at from `tries` places and is still
-//!    there, as `NothingNew`. Both hold for the place relative to its vertex, and are told. In maps with one
-//!    global frame frontier belongs to no vertex, and is given up at once.
+//!    against what was seen farther along the graph. Frontier that still counts is given up: as `Unreachable`
+//!    where none of the places above was ever found for it; as `Hidden` where it was looked at and something
+//!    solid stands before it, by that look or by at least three views and none that says otherwise; else as
+//!    `NothingNew`. The first two are told apart from what is ignored. All hold for the place relative to its
+//!    vertex. In maps with one global frame frontier belongs to no vertex, and is given up at once.
 //! 6. **Done.** No frontier counts any more: `Complete`.
 //!
 //! Why it ends: turns at one place are bounded by `looks_at_a_place`; flights for one piece of frontier by
-//! `tries`; visits to one vertex by `visits_in_vain`; rounds within a step, because each puts something off or
+//! `tries`, and to one after a depth was read there; visits to one vertex by `visits_in_vain`, until the second
+//! round; rounds within a step, because each puts something off or
 //! gives it up. What ends every run for certain is `max_steps`.
 
 mod act;

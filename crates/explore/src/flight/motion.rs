@@ -55,6 +55,8 @@ impl FlightExplorer {
         if let Some(seen) = self.seen.get_mut(hovering.vertex) {
             seen.add(yaw_rad, vertex_from_camera, &image);
         }
+        let vertex = hovering.vertex;
+        self.margins_known.retain(|(of, _), _| *of != vertex);
         let look = Look { vertex: hovering.vertex, vertex_from_camera, image: &image };
         for map in &mut self.maps {
             self.refused_looks += u64::from(map.looked(&look, &mut *probe).is_err());

@@ -119,6 +119,24 @@ impl Panorama {
         })
     }
 
+    /// What an image that has the direction of a point in it read there: whether something solid stands before
+    /// it, by at least `before_m` of depth. `None` where no image has it, or none has a reading there.
+    pub(super) fn hides(&self, point_in_vertex: &Point3, before_m: f64) -> Option<bool> {
+        self.looks.iter().find_map(|seen| {
+            let point = seen.vertex_from_camera.inverse_transform(point_in_vertex);
+            let [column, row] = seen.camera.pixel_of(&point)?;
+            if column < 0.0 || row < 0.0 {
+                return None;
+            }
+            let (column, row) = (column as usize, row as usize);
+            if column + 1 >= seen.columns || row + 1 >= seen.rows {
+                return None;
+            }
+            let depth_m = f64::from(seen.free_m[row * (seen.columns - 1) + column]);
+            (depth_m > 0.0).then_some(depth_m + before_m <= point.z)
+        })
+    }
+
     /// Whether the straight way between two points is free, its last `short_m` left out.
     pub(super) fn is_way_free(&self, from: &Point3, to: &Point3, short_m: f64) -> bool {
         let way = to - from;

@@ -35,6 +35,19 @@ const ASKED: usize = 80;
 const LATE_ASKED: usize = 320;
 /// An approach gains at least so much, metres.
 const NEARER_M: f64 = 0.4;
+/// How a body that leaves is looked at where its vertex has no eyes: steps and slack in metres, and yaws.
+const LEAVE_STEP_M: f64 = 0.1;
+const LEAVE_SLACK_M: f64 = 0.03;
+const LEAVE_YAWS: usize = 8;
+/// No margin is kept.
+const NO_MARGIN: u8 = 254;
+/// The depth images show something in the way.
+const BLOCKED: u8 = 255;
+/// A plan so near to where it begins is none to fly, metres: the robot only turns.
+pub(super) const STAYS_M: f64 = 0.01;
+/// Of the fan, every so manyth yaw, elevation and distance is asked for lines of sight through all that is
+/// believed to be free: these cost more.
+const BELIEVE_EVERY: [usize; 3] = [2, 2, 2];
 /// The end of a line of sight may lie in what is not free for certain, metres: frontier is where that ends.
 const SIGHT_SHORT_M: f64 = 0.15;
 
@@ -46,6 +59,9 @@ pub(super) enum Aim {
     /// A place that is nearer to targets, on the straight way to which nothing stands: what is too far off
     /// to be looked at from anywhere near.
     Approach,
+    /// A place that has targets in view by all that is believed to be free, whoever saw it; the vertex itself
+    /// as well.
+    Believe,
 }
 
 impl FlightExplorer {
@@ -61,62 +77,136 @@ impl FlightExplorer {
         let mut scored: Vec<(Point3, f64)> = Vec::new();
         // An approach leads to where nobody was: else it would lead there again and again.
         let known = match aim {
-            Aim::Look => Vec::new(),
+            Aim::Look | Aim::Believe => Vec::new(),
             Aim::Approach => nearby(&self.graph, at, 2.0 * self.params.hop_m),
         };
         let is_new = |place: &Point3| {
             let apart_m = |near: &Near| (near.root_from_vertex.translation - place.coords).norm();
             known.iter().all(|near| apart_m(near) >= NEARER_M)
         };
-        for place in self.places(at, targets).into_iter().filter(is_new) {
-            let score = self.score(aim, (at, owner_from_at), &place, targets);
-            if score > 0.0 {
-                scored.push((place, score));
+        let places: Vec<Point3> =
+            self.places(aim, at, targets).into_iter().filter(is_new).collect();
+        let gains = self.gains(aim, (at, owner_from_at), &places, targets);
+        for (place, gains_m2) in places.iter().zip(&gains) {
+            let gain_m2: f64 = gains_m2.iter().sum();
+            if gain_m2 > 0.0 {
+                // The area in view, and less the farther it is.
+                scored.push((*place, gain_m2 / (1.0 + place.coords.norm())));
             }
         }
         scored.sort_by(|a, b| b.1.total_cmp(&a.1));
         let asked = if self.later.is_late() { LATE_ASKED } else { ASKED };
         probe.emit(FlightEvent::ViewpointsScored { at, targets, scored: &scored });
-        let hovering = Hovering { vertex: at, vertex_from_body: Se3::identity() };
-        let radius_m = self.params.body_radius_m;
-        let leaving_m = self.params.leaving_m;
-        let least_m = self.params.margins_m.iter().copied().fold(f64::INFINITY, f64::min);
-        if let Some(seen) = self.seen.get(at).filter(|_| least_m.is_finite()) {
-            let keep_m = radius_m + least_m;
-            let clear = scored.iter().filter(|(place, _)| seen.keeps_clear(place, keep_m));
-            scored = clear.take(asked).copied().collect();
+        // The best of those that keep the widest margin.
+        let mut best: Option<(u8, Point3)> = None;
+        let mut count = 0;
+        for (place, _) in &scored {
+            let margin = self.margin_of(at, place);
+            count += usize::from(margin != BLOCKED);
+            let is_better = best.is_none_or(|(widest, _)| margin < widest);
+            if margin < NO_MARGIN && is_better {
+                best = Some((margin, *place));
+            }
+            if margin == 0 || count >= asked {
+                break;
+            }
         }
-        let clearances: Vec<_> = scored
+        let (margin, place) = best?;
+        let gains_m2 = self.gains(aim, (at, owner_from_at), &[place], targets).swap_remove(0);
+        let in_view: Vec<Target> = targets
             .iter()
-            .map(|(place, _)| self.maps[0].clearance(&hovering, place, leaving_m))
+            .zip(&gains_m2)
+            .filter(|(_, gain_m2)| **gain_m2 > 0.0)
+            .map(|(target, _)| *target)
             .collect();
-        for margin_m in self.params.margins_m.clone() {
-            let keep_m = radius_m + margin_m;
-            let allowed = clearances.iter().position(|c| c.keeps(keep_m, radius_m));
-            let Some(best) = allowed else { continue };
-            let place = scored[best].0;
-            let in_view: Vec<Target> = targets
-                .iter()
-                .filter(|target| self.gain(aim, (at, owner_from_at), &place, target) > 0.0)
-                .copied()
-                .collect();
-            let area_m2 = in_view.iter().map(|target| target.area_m2).sum();
-            probe.emit(FlightEvent::ViewpointChosen {
-                at,
-                place_in_vertex: place,
-                area_m2,
-                margin_m,
-            });
-            return Some(Plan { at, place, targets: in_view });
+        let area_m2 = in_view.iter().map(|target| target.area_m2).sum();
+        let margin_m = self.params.margins_m.get(usize::from(margin)).copied().unwrap_or(0.0);
+        probe.emit(FlightEvent::ViewpointChosen { at, place_in_vertex: place, area_m2, margin_m });
+        Some(Plan { at, place, targets: in_view })
+    }
+
+    /// Whether a straight flight from a vertex keeps clear of everything, by the least margin.
+    pub(super) fn may_fly(&mut self, at: VertexId, place: &Point3) -> bool {
+        self.margin_of(at, place) < NO_MARGIN
+    }
+
+    /// Whether a body that leaves a vertex towards a place meets nothing solid that is above or below the images
+    /// of the vertex, as far as views around saw it; a place where it does is not asked for again.
+    ///
+    /// Those views are placed along the graph, so this is not for certain; but noise may have pushed the robot
+    /// right under a ledge that it cannot see any more.
+    pub(super) fn may_leave(&mut self, at: VertexId, place: &Point3) -> bool {
+        let Some(seen) = self.seen.get(at) else { return false };
+        let (radius_m, length_m) = (self.params.body_radius_m, place.coords.norm());
+        let way = place.coords / length_m.max(1e-9);
+        let steps = (self.params.leaving_m.min(length_m) / LEAVE_STEP_M).floor() as usize;
+        let mut points: Vec<Point3> = Vec::new();
+        for step in 1..=steps {
+            let middle = way * (step as f64 * LEAVE_STEP_M);
+            for yaw in 0..LEAVE_YAWS {
+                let yaw_rad = std::f64::consts::TAU * yaw as f64 / LEAVE_YAWS as f64;
+                for elevation_deg in [-90.0_f64, -65.0, -40.0, 40.0, 65.0, 90.0] {
+                    let (sin, cos) = elevation_deg.to_radians().sin_cos();
+                    let by = Vector3::new(cos * yaw_rad.cos(), cos * yaw_rad.sin(), sin);
+                    let point = Point3::from(middle + by * radius_m);
+                    // The body is at the start already.
+                    let is_new = point.coords.norm() > radius_m + LEAVE_SLACK_M;
+                    if is_new && !seen.has_in_view(&point, 0.0) {
+                        points.push(point);
+                    }
+                }
+            }
         }
-        None
+        let hovering = Hovering { vertex: at, vertex_from_body: Se3::identity() };
+        let may = points.is_empty() || !self.maps[0].meets_solid(&hovering, &points);
+        if !may {
+            let key = (at, [place.x, place.y, place.z].map(f64::to_bits));
+            self.margins_known.insert(key, BLOCKED);
+        }
+        may
+    }
+
+    /// The first of the margins that a straight flight from a vertex keeps, as its number; [`NO_MARGIN`] for
+    /// none, [`BLOCKED`] where the depth images alone tell so.
+    ///
+    /// In maps whose frontier belongs to vertices it follows from the looks of the vertex alone, and is kept
+    /// until the next one there.
+    fn margin_of(&mut self, at: VertexId, place: &Point3) -> u8 {
+        if place.coords.norm() < STAYS_M {
+            return 0;
+        }
+        let key = (at, [place.x, place.y, place.z].map(f64::to_bits));
+        if let Some(&known) = self.margins_known.get(&key) {
+            return known;
+        }
+        let radius_m = self.params.body_radius_m;
+        let margins_m = &self.params.margins_m;
+        let least_m = margins_m.iter().copied().fold(f64::INFINITY, f64::min);
+        let is_clear = least_m.is_finite()
+            && self.seen.get(at).is_some_and(|seen| seen.keeps_clear(place, radius_m + least_m));
+        let margin = if is_clear {
+            let hovering = Hovering { vertex: at, vertex_from_body: Se3::identity() };
+            let clearance = self.maps[0].clearance(&hovering, place, self.params.leaving_m);
+            let keeps = |margin_m: &f64| clearance.keeps(radius_m + margin_m, radius_m);
+            let first = margins_m.iter().take(usize::from(NO_MARGIN)).position(keeps);
+            first.map_or(NO_MARGIN, |first| first as u8)
+        } else {
+            BLOCKED
+        };
+        if self.maps[0].is_by_vertex() {
+            self.margins_known.insert(key, margin);
+        }
+        margin
     }
 
     /// Places that may be flown to: a fan around the vertex, and points before the targets.
-    fn places(&self, at: VertexId, targets: &[Target]) -> Vec<Point3> {
+    fn places(&self, aim: Aim, at: VertexId, targets: &[Target]) -> Vec<Point3> {
         let Some(seen) = self.seen.get(at) else { return Vec::new() };
         let radius_m = self.params.body_radius_m;
-        let mut places = Vec::new();
+        let (mut places, every) = match aim {
+            Aim::Look | Aim::Approach => (Vec::new(), [1; 3]),
+            Aim::Believe => (vec![Point3::origin()], BELIEVE_EVERY),
+        };
         let mut keep = |place: Point3| {
             let distance_m = place.coords.norm();
             if distance_m < 0.25 || distance_m > self.params.hop_m {
@@ -126,12 +216,12 @@ impl FlightExplorer {
                 places.push(place);
             }
         };
-        for elevation_deg in ELEVATIONS_DEG {
-            for yaw in 0..YAWS {
+        for elevation_deg in ELEVATIONS_DEG.into_iter().step_by(every[1]) {
+            for yaw in (0..YAWS).step_by(every[0]) {
                 let yaw_rad = std::f64::consts::TAU * yaw as f64 / YAWS as f64;
                 let (sin, cos) = elevation_deg.to_radians().sin_cos();
                 let direction = Vector3::new(cos * yaw_rad.cos(), cos * yaw_rad.sin(), sin);
-                for share in SHARES {
+                for share in SHARES.into_iter().skip(every[2] - 1).step_by(every[2]) {
                     keep(Point3::from(direction * (share * self.params.hop_m)));
                 }
             }
@@ -144,10 +234,35 @@ impl FlightExplorer {
         places
     }
 
-    /// How much a place is worth: the area in view, and less the farther it is.
-    fn score(&self, aim: Aim, from: (VertexId, &Se3), place: &Point3, targets: &[Target]) -> f64 {
-        let gain_m2: f64 = targets.iter().map(|target| self.gain(aim, from, place, target)).sum();
-        gain_m2 / (1.0 + place.coords.norm())
+    /// What looks from places are worth, for each place by target.
+    fn gains(
+        &mut self,
+        aim: Aim,
+        from: (VertexId, &Se3),
+        places: &[Point3],
+        targets: &[Target],
+    ) -> Vec<Vec<f64>> {
+        let mut gains: Vec<Vec<f64>> = places
+            .iter()
+            .map(|place| targets.iter().map(|t| self.gain(aim, from, place, t)).collect())
+            .collect();
+        if aim == Aim::Believe {
+            // Lines of sight through what others saw are asked for all at once.
+            let pairs: Vec<(usize, usize)> = (0..places.len())
+                .flat_map(|at| (0..targets.len()).map(move |of| (at, of)))
+                .filter(|&(at, of)| gains[at][of] > 0.0)
+                .collect();
+            let lines: Vec<[Point3; 2]> =
+                pairs.iter().map(|&(at, of)| [places[at], targets[of].at]).collect();
+            let hovering = Hovering { vertex: from.0, vertex_from_body: Se3::identity() };
+            let are_free = self.maps[0].free_lines(&hovering, &lines, SIGHT_SHORT_M);
+            for (&(at, of), is_free) in pairs.iter().zip(are_free) {
+                if !is_free {
+                    gains[at][of] = 0.0;
+                }
+            }
+        }
+        gains
     }
 
     /// The area of a target that a look from a place is worth: 0 where it cannot be seen from there, or was
@@ -167,7 +282,7 @@ impl FlightExplorer {
             return 0.0;
         }
         let share = match aim {
-            Aim::Look => {
+            Aim::Look | Aim::Believe => {
                 let across = by.dot(&target.normal) / distance_m;
                 let limit_m = self.params.view_share * lens.far_m;
                 let depth_m = lens.depth_of(&by, BORDER_PX);
@@ -185,7 +300,14 @@ impl FlightExplorer {
         let same_m = self.params.same_place_m;
         let from_in_owner = owner_from_at.transform(place);
         let is_free = || {
-            self.seen.get(at).is_some_and(|seen| seen.is_way_free(place, &target.at, SIGHT_SHORT_M))
+            self.seen.get(at).is_some_and(|seen| match aim {
+                Aim::Look | Aim::Approach => seen.is_way_free(place, &target.at, SIGHT_SHORT_M),
+                // The line itself is looked at by who asked.
+                Aim::Believe if place.coords.norm() < STAYS_M => {
+                    !seen.has_in_view(&target.at, BORDER_PX)
+                }
+                Aim::Believe => true,
+            })
         };
         if self.tries.was_tried(target, &from_in_owner, same_m) || !is_free() {
             return 0.0;
