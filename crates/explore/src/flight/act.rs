@@ -139,6 +139,11 @@ impl FlightExplorer {
         probe: &mut dyn FlightProbe,
     ) -> bool {
         let (same_m, tries) = (self.params.same_place_m, self.params.tries);
+        if self.later.is_last() {
+            // What is about to be given up is held against farther views, also where the robot hovers.
+            self.maps[0].compare_farther(owner, &mut *probe);
+            self.ask_frontiers(owner);
+        }
         let targets: Vec<Target> = self.patches.iter().flat_map(targets_of).collect();
         let is_by_vertex = self.maps[0].is_by_vertex();
         // Later on one look at each piece is enough of a bound.
@@ -277,9 +282,6 @@ impl FlightExplorer {
             let goal = legs.last().map_or(hovering.vertex, |&(goal, _)| goal);
             if self.later.comes_again(goal) {
                 // What was put off once is flown for only when there is something to do.
-                if self.later.is_last() {
-                    self.maps[0].compare_farther(goal, &mut *probe);
-                }
                 self.ask_frontiers(goal);
                 if self.patches.is_empty() {
                     self.later.put_off(goal);
