@@ -166,6 +166,7 @@ fn main() {
     let mut worst_m = 0.0_f64;
     let mut collided = 0;
     let report = loop {
+        let before = witness.world_from_body().translation;
         let report = explorer.step(&mut witness, &mut told);
         if verbose || explorer.steps().is_multiple_of(100) {
             println!(
@@ -205,7 +206,20 @@ fn main() {
         }
         if witness.tally().collisions > collided {
             collided = witness.tally().collisions;
-            println!("  COLLISION at step {} from {}", explorer.steps(), report.hovering.vertex);
+            let after = witness.world_from_body().translation;
+            println!(
+                "  COLLISION at step {} before {}, flown {:.3} m from {:.3} {:.3} {:.3} to {:.3} {:.3} {:.3}, surface {:.4} m",
+                explorer.steps(),
+                report.hovering.vertex,
+                (after - before).norm(),
+                before.x,
+                before.y,
+                before.z,
+                after.x,
+                after.y,
+                after.z,
+                world.caster().distance_to(&before.into())
+            );
         }
         if report.ending.is_some() {
             break report;

@@ -139,7 +139,7 @@ impl FlightExplorer {
         probe: &mut dyn FlightProbe,
     ) -> bool {
         let (same_m, tries) = (self.params.same_place_m, self.params.tries);
-        if self.later.is_last() {
+        if self.later.is_last() && self.held_farther.insert(owner) {
             // What is about to be given up is held against farther views, also where the robot hovers.
             self.maps[0].compare_farther(owner, &mut *probe);
             self.ask_frontiers(owner);

@@ -5,7 +5,7 @@ use pose::Se3;
 use posegraph::PoseGraph;
 use probe::{IdVec, VertexId};
 use sensing::FlyingRobot;
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 
 use super::later::Later;
 use super::memory::{Target, Tries};
@@ -68,6 +68,8 @@ pub struct FlightExplorer {
     /// By vertex and place, what a straight flight keeps from everything.
     pub(super) margins_known: BTreeMap<(VertexId, [u64; 3]), u8>,
     pub(super) later: Later,
+    /// Vertices whose frontier was held against farther views in the last round.
+    pub(super) held_farther: BTreeSet<VertexId>,
 }
 
 impl FlightExplorer {
@@ -101,6 +103,7 @@ impl FlightExplorer {
             patches: Vec::new(),
             margins_known: BTreeMap::new(),
             later: Later::default(),
+            held_farther: BTreeSet::new(),
         }
     }
 
