@@ -49,7 +49,7 @@ impl Default for RelativeParams {
         Self {
             view: ViewOptions { reduce, frontier_share: 0.5, ..ViewOptions::default() },
             consolidation_radius_m: 12.0,
-            place_weight: 0.25,
+            place_weight: 1.0,
             shrink_m: 0.01,
             inset_px: 0.3,
             grazing_rad: 8f64.to_radians(),
