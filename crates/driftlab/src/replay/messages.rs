@@ -291,14 +291,19 @@ impl Source {
             .into())
     }
 
-    /// Warns where no transforms tell how the sensor of a topic is mounted on the body.
-    fn tell_of_mount(&self, heard: &Heard, scans: usize, warnings: &mut Vec<String>) {
+    /// The poses of the body over time and the name of its frame, where a topic has them.
+    fn track<'a>(&self, heard: &'a Heard) -> Option<&'a (usize, Arc<str>, Track)> {
         let (tracks, topic) = match self {
             Self::Odometry(topic) => (&heard.tracks, *topic),
             Self::Pose(topic) => (&heard.poses, *topic),
-            Self::Frames(_) | Self::None => return,
+            Self::Frames(_) | Self::None => return None,
         };
-        let body = tracks.iter().find(|track| track.0 == topic).map_or("", |track| &track.1);
+        tracks.iter().find(|track| track.0 == topic)
+    }
+
+    /// Warns where no transforms tell how the sensor of a topic is mounted on the body.
+    fn tell_of_mount(&self, heard: &Heard, scans: usize, warnings: &mut Vec<String>) {
+        let Some((_, body, _)) = self.track(heard) else { return };
         let Some((_, scan, _)) = heard.scans.iter().find(|scan| scan.0 == scans) else { return };
         let frame = &scan.header.frame;
         // A message of poses does not name its body.
@@ -311,24 +316,17 @@ impl Source {
 
     /// The frame of a scan where the odometry has it; of scans of one stamp the `nth`.
     fn at(&self, heard: &Heard, frame: &str, stamp: Stamp, nth: usize) -> Option<Se3> {
-        let of_body = |tracks: &[(usize, Arc<str>, Track)], topic: usize| {
-            let (_, body, track) = tracks.iter().find(|track| track.0 == topic)?;
-            if track.is_empty() || track.beyond_secs(stamp) > BEYOND_SECS {
-                return None;
-            }
-            // Without a chain of transforms the sensor counts as the body's middle.
-            let body_from_sensor = heard.frames.lookup(body, frame, stamp);
-            Some(track.nth_at(stamp, nth)? * body_from_sensor.unwrap_or_else(Se3::identity))
-        };
-        match self {
-            Self::Odometry(topic) => of_body(&heard.tracks, *topic),
-            Self::Pose(topic) => of_body(&heard.poses, *topic),
-            Self::Frames(odom) => {
-                let near = heard.frames.beyond_secs(odom, frame, stamp) <= BEYOND_SECS;
-                heard.frames.lookup(odom, frame, stamp).filter(|_| near)
-            }
-            Self::None => None,
+        if let Self::Frames(odom) = self {
+            let near = heard.frames.beyond_secs(odom, frame, stamp) <= BEYOND_SECS;
+            return heard.frames.lookup(odom, frame, stamp).filter(|_| near);
         }
+        let (_, body, track) = self.track(heard)?;
+        if track.is_empty() || track.beyond_secs(stamp) > BEYOND_SECS {
+            return None;
+        }
+        // Without a chain of transforms the sensor counts as the body's middle.
+        let body_from_sensor = heard.frames.lookup(body, frame, stamp);
+        Some(track.nth_at(stamp, nth)? * body_from_sensor.unwrap_or_else(Se3::identity))
     }
 }
 

@@ -115,15 +115,13 @@ impl RelativeMap {
             let limit_m = |pair: &(u32, u32)| {
                 (target.distance_m + rows[pair.1 as usize].distance_m) / NEARLY_SHORTEST
             };
-            others.clear();
             // The ways from and to the root are the shortest that there are.
-            if of_target[0].0 != 0 {
-                others.extend(of_target.iter().map(|pair| rows[pair.1 as usize].vertex));
-            }
-            if others.iter().all(|other| *other == rows[0].vertex) {
+            if of_target.iter().all(|pair| pair.0 == 0 || pair.1 == 0) {
                 kept.extend_from_slice(of_target);
                 continue;
             }
+            others.clear();
+            others.extend(of_target.iter().map(|pair| rows[pair.1 as usize].vertex));
             let most_m = of_target.iter().map(limit_m).fold(0.0, f64::max);
             let scratch = &mut self.scratch;
             scratch.distances_within(walked, target.vertex, &others, most_m, &mut distances_m);

@@ -75,22 +75,23 @@ impl Rim {
     /// Whether a segment is certainly farther than a margin from everything that was seen: no point of
     /// it lies inside the view, or so near its boundary.
     pub fn is_clear_of(&self, from: &Point2, to: &Point2, margin_m: f64) -> bool {
+        self.near(from, to, margin_m).is_none()
+    }
+
+    /// The directions in which what was seen may come so near to a segment; none where it certainly does not.
+    fn near(&self, from: &Point2, to: &Point2, margin_m: f64) -> Option<Arc> {
         let nearest_m = point_segment_distance(&Point2::origin(), from, to);
         let arc = Arc::around(from, to, nearest_m, margin_m);
         let farthest_m = arc.directions().map(|d| self.farthest_m[d]).fold(0.0, f64::max);
-        nearest_m > (farthest_m + margin_m) * (1.0 + 1e-9)
+        let is_clear = nearest_m > (farthest_m + margin_m) * (1.0 + 1e-9);
+        (!is_clear).then_some(arc)
     }
 
     /// The numbers of the solid parts that may come so near to a segment, each once, in the order of
     /// their directions; obstacle edges first, then posts. Replaces what `out` holds.
     pub fn solid_near(&self, from: &Point2, to: &Point2, margin_m: f64, out: &mut Vec<u32>) {
         out.clear();
-        let nearest_m = point_segment_distance(&Point2::origin(), from, to);
-        let arc = Arc::around(from, to, nearest_m, margin_m);
-        let farthest_m = arc.directions().map(|d| self.farthest_m[d]).fold(0.0, f64::max);
-        if nearest_m > (farthest_m + margin_m) * (1.0 + 1e-9) {
-            return;
-        }
+        let Some(arc) = self.near(from, to, margin_m) else { return };
         for (i, direction) in arc.directions().enumerate() {
             let (start, end) = (self.starts[direction], self.starts[direction + 1]);
             let parts = &self.solid[start as usize..end as usize];

@@ -136,14 +136,11 @@ impl RelativeMap {
     ) -> Vec<bool> {
         self.cover(hovering.vertex);
         self.take_scope(hovering.vertex, &mut probe::Off);
-        let mut placed: Vec<(Se3, &LocalVolume)> = Vec::new();
-        for row in self.scope.placed() {
-            for &view in self.views_of(row.vertex) {
-                let state = &self.views[view as usize];
-                let root_from_camera = row.root_from_vertex * state.vertex_from_camera;
-                placed.push((root_from_camera.inverse(), &state.volume));
-            }
-        }
+        let views = self.all_placed_views();
+        let placed: Vec<(Se3, &LocalVolume)> = views
+            .iter()
+            .map(|at| (at.root_from_camera.inverse(), &self.views[at.view as usize].volume))
+            .collect();
         // What held the last point mostly holds the next one too.
         let mut last = 0;
         let mut is_free = |point: &Point3<f64>| {
