@@ -1,6 +1,6 @@
 //! Paths on maps of united views: A* beside Dijkstra, shortening, and how long both take.
 //!
-//! `cargo bench -p maps3d --bench plan [-- --queries N --radius M --views N,N]`. Maps are unions of views along
+//! `cargo bench -p maps3d --bench plan [-- --queries N --radius M --views N,noisy:N]`. Maps are unions of views along
 //! a path and of views all over a hall, filled with tetrahedra. Start and goal are uniform in the free
 //! space. Seconds are those of this thread on a processor.
 
@@ -245,6 +245,14 @@ fn nearest(planner: &mut Planner, asked: &[[Point3; 2]]) {
     ));
 }
 
+/// A kind of views and how many: `130` along a path, `noisy:90` all over the hall.
+fn views_of(word: &str) -> (Kind, usize) {
+    match word.split_once(':') {
+        Some(("noisy", count)) => (Kind::Noisy, count.parse().expect("a count")),
+        _ => (Kind::Path, word.parse().expect("a count, or noisy:COUNT")),
+    }
+}
+
 fn main() {
     let words: Vec<String> = std::env::args().skip(1).filter(|word| word != "--bench").collect();
     let value = |name: &str| {
@@ -255,8 +263,8 @@ fn main() {
         text.split(',').map(|one| one.parse().expect("metres")).collect()
     });
     let maps: Vec<(Kind, usize)> = match value("--views") {
-        Some(text) => text.split(',').map(|n| (Kind::Path, n.parse().expect("a count"))).collect(),
-        None => vec![(Kind::Path, 50), (Kind::Noisy, 52), (Kind::Path, 80)],
+        Some(text) => text.split(',').map(views_of).collect(),
+        None => vec![(Kind::Path, 50), (Kind::Noisy, 52), (Kind::Noisy, 104)],
     };
     for (kind, count) in maps {
         let map = unite(&views(kind, count), &Options::default()).expect("sound views");
