@@ -11,8 +11,11 @@ use super::frontier::{self, FrontierNode};
 use super::space::{Exit, Space, middle_of};
 use crate::{Maps3dError, PlanOptions};
 
-/// Costs are whole multiples of this, metres: sums of them are exact up to 8,000 km.
-const UNIT_M: f64 = 1.0 / (1_u64 << 30) as f64;
+/// Costs are whole multiples of this, metres: sums of them are exact up to 32 km.
+const UNIT_M: f64 = 1.0 / (1_u64 << 38) as f64;
+
+/// Legs are made dearer by less than this many units, each by its own: see [`tie_break`].
+const TIES: u32 = 1 << 12;
 
 /// A node of the dual graph: a tetrahedron, a point of a frontier face, the start or the goal.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -50,7 +53,8 @@ const SHUT: u8 = 2;
 /// Tetrahedra and frontier points, joined (\[Mos15\] 4.3, 4.4).
 ///
 /// What holds: each leg, straight or with its bend, lies in the two closed tetrahedra, exactly; its
-/// cost is its length, rounded up to a multiple of 2^-30 m, so that costs add up without rounding.
+/// cost is its length, made dearer by up to 1.5e-8 m so that no two ways cost the same, and rounded up to a
+/// multiple of 2^-38 m, so that costs add up without rounding.
 #[derive(Debug)]
 pub struct DualGraph {
     points: Vec<Point3>,
@@ -78,7 +82,8 @@ impl DualGraph {
         let mut gates = Vec::new();
         let mut pairs: Vec<(u32, Edge)> = Vec::new();
         let mut join = |a: u32, b: u32, gate: Gate, length_m: f64| {
-            let (cost, gate_id) = (cost_of(length_m), gates.len() as u32);
+            let gate_id = gates.len() as u32;
+            let cost = cost_of(length_m) + tie_break(gate_id);
             gates.push(gate);
             pairs.push((a, Edge { to: b, gate: gate_id, cost }));
             pairs.push((b, Edge { to: a, gate: gate_id, cost }));
@@ -201,6 +206,16 @@ impl DualGraph {
             known => known == OPEN,
         }
     }
+}
+
+/// What a leg costs besides its length.
+///
+/// Points of one frontier face lie in a row: the way from the first to the third costs the same by the second
+/// as past it. Which of the two a search finds would be its own affair, and with it which corridor is tried
+/// next: A* and Dijkstra's search would not end at the same. Multiplication by an odd number near the golden
+/// ratio of 2^32 scatters neighbouring gates.
+fn tie_break(gate: u32) -> f64 {
+    f64::from(gate.wrapping_mul(0x9e37_79b1) >> 16 & (TIES - 1)) * UNIT_M
 }
 
 /// A length as a cost: rounded up.

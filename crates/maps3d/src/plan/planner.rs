@@ -23,7 +23,7 @@ use crate::{Algorithm, Heuristic, Maps3dError, PlanOptions, Target};
 pub struct Plan {
     /// From the start through the nodes to the goal, bends included.
     pub way: Vec<Knot>,
-    /// Length of the way, metres, as a cost: each leg rounded up to a multiple of 2^-30 m.
+    /// Length of the way, metres, as a cost: each leg dearer than it is long by less than 2e-8 m.
     pub cost_m: f64,
     /// Length of the straight lines between the nodes of the way, metres: what the way would be if
     /// legs did not have to stay inside.
