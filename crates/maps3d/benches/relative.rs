@@ -2,12 +2,14 @@
 //! view, of the relative map beside the voxel map.
 //!
 //! `cargo bench -p maps3d --bench relative -- [FRAMES] [FOLDER]`; 60 frames where no number is given. With a
-//! folder the frames are written there, as `benches/peers/octomap_frames.py` reads them for OctoMap. With
-//! `read` for the number the frames of the folder are taken (`benches/peers/frames_of_folder.py` makes some of
-//! real depth images).
+//! folder the frames are written there, as `benches/peers/octomap_frames.py` reads them for OctoMap; it must be
+//! new or empty, since frames of the same numbers would be written over. With `read` for the number the frames of
+//! the folder are taken (`benches/peers/frames_of_folder.py` makes some of real depth images). From 500 frames on
+//! the last line says how much the time per frame grew.
 
 #![allow(missing_docs, reason = "a program")]
 #![expect(clippy::print_stdout, reason = "a bench that prints its table")]
+#![expect(clippy::print_stderr, reason = "a bench that says what is wrong with its arguments")]
 
 use std::path::Path;
 use std::time::Instant;
@@ -71,6 +73,22 @@ fn image(frame: usize) -> DepthImage {
         depths_m.push(if seed >> 24 == 0 { f32::NAN } else { (depth_m + noise) as f32 });
     }
     DepthImage::new(COLUMNS, camera, depths_m)
+}
+
+/// Makes a folder to write to; says what is wrong where something is in it already.
+fn make(folder: &Path) -> Result<(), String> {
+    let name = folder.display();
+    if folder.exists() {
+        let mut inside = std::fs::read_dir(folder)
+            .map_err(|error| format!("{name}: expected a folder to write frames to: {error}"))?;
+        if inside.next().is_some() {
+            let advice = "`read` for the number takes the frames of a folder";
+            return Err(format!(
+                "{name}: is not empty, and frames would be written to it; {advice}"
+            ));
+        }
+    }
+    std::fs::create_dir_all(folder).map_err(|error| format!("{name}: cannot be made: {error}"))
 }
 
 /// Writes a frame, its pose and the camera for a peer.
@@ -144,6 +162,12 @@ fn main() {
         }
         _ => None,
     };
+    if let Some(folder) = folder
+        && let Err(message) = make(folder)
+    {
+        eprintln!("{message}");
+        std::process::exit(2);
+    }
     let asked = args.first().and_then(|arg| arg.parse().ok()).unwrap_or(60);
     let frames: usize = taken.as_ref().map_or(asked, Vec::len);
     let voxels_too = frames <= 100;
@@ -199,4 +223,12 @@ fn main() {
         relative.tally().patches,
         relative.tally().open_m2,
     );
+    if times[0].len() >= 500 {
+        let early = median(&times[0][50..100]);
+        let late = median(&times[0][times[0].len() - 50..]);
+        println!(
+            "frames 50 to 100: {early:.1} ms, the last 50: {late:.1} ms, {:.2} times",
+            late / early
+        );
+    }
 }

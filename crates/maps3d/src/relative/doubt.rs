@@ -64,7 +64,12 @@ impl Doubt {
             }
             (all, against as f64 > params.contradiction_share * all as f64)
         };
-        let is_near = |point: &Point3<f64>| point_triangle(point, [a, b, c]) <= NEAR_M;
+        let (low, high) = (a.inf(b).inf(c), a.sup(b).sup(c));
+        let may_be_near = |point: &Point3<f64>| {
+            (0..3).all(|i| point[i] >= low[i] - NEAR_M && point[i] <= high[i] + NEAR_M)
+        };
+        let is_near =
+            |point: &Point3<f64>| may_be_near(point) && point_triangle(point, [a, b, c]) <= NEAR_M;
         let (all, is_in_doubt) =
             share_of(&mut self.points.iter().filter(|(point, _)| is_near(point)));
         if all >= LEAST { is_in_doubt } else { share_of(&mut self.points.iter()).1 }

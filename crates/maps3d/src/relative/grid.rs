@@ -50,6 +50,17 @@ impl FaceGrid {
         self.origin + self.along[0] * (x * step) + self.along[1] * (y * step)
     }
 
+    /// The corners of what lies on the face within a box of its grid, all in one plane; the number of those that
+    /// count. A box may stand out beyond the long side of the face.
+    pub fn patch(&self, [low, high]: [[i32; 2]; 2]) -> ([Point3<f64>; 4], usize) {
+        if low == [0, 0] && high == [STEPS, STEPS] {
+            let [a, b, c] = self.corners();
+            return ([a, b, c, c], 3);
+        }
+        let places = [[low[0], low[1]], [high[0], low[1]], [high[0], high[1]], [low[0], high[1]]];
+        (places.map(|place| self.point(place.map(f64::from))), 4)
+    }
+
     /// The metric area of one square step, square metres.
     pub fn step_m2(&self) -> f64 {
         self.area_m2() / (0.5 * TWICE_AREA as f64)

@@ -2,7 +2,7 @@
 
 use geometry::planar::overlay::StepRings;
 
-use super::grid::{self, TWICE_AREA};
+use super::grid::{self, STEPS, TWICE_AREA};
 
 /// Set in the first coordinate of the last corner of each ring.
 const LAST: u32 = 1 << 31;
@@ -63,6 +63,17 @@ impl OpenPart {
         out
     }
 
+    /// The least box around what is open, on the grid of the face: its least and its largest corner; `None`
+    /// where nothing is open.
+    pub(super) fn bounds(&self) -> Option<[[i32; 2]; 2]> {
+        let Some(corners) = &self.corners else { return Some([[0, 0], [STEPS, STEPS]]) };
+        let places = corners.iter().map(|&[x, y]| [(x & !LAST) as i32, y as i32]);
+        places.map(|place| [place, place]).reduce(|[low, high], [place, _]| {
+            let axes = [0, 1];
+            [axes.map(|i| low[i].min(place[i])), axes.map(|i| high[i].max(place[i]))]
+        })
+    }
+
     /// Twice its area, square steps of the grid of the face; of the whole face,
     /// [`TWICE_AREA`](super::TWICE_AREA).
     pub fn twice_area(&self) -> i64 {
@@ -97,8 +108,10 @@ mod tests {
         assert_eq!(part.rings(), rings);
         assert_eq!(part.twice_area(), 900 * 900 - 2500);
         assert!(!part.is_whole() && !part.is_closed());
+        assert_eq!(part.bounds(), Some([[0, 0], [900, 900]]));
         assert!(OpenPart::closed().is_closed() && OpenPart::closed().rings().is_empty());
         assert_eq!(OpenPart::default().rings().twice_area(), TWICE_AREA);
         assert!(OpenPart::of(&StepRings::new()).is_closed());
+        assert_eq!(OpenPart::closed().bounds(), None);
     }
 }

@@ -175,19 +175,18 @@ impl Work {
         let only: Option<&dyn Fn(u16) -> bool> =
             if cause == Cause::Inside { None } else { Some(&is_solid) };
         for (index, open) in view.open.iter().enumerate() {
-            if open.is_closed() || !wanted(index) {
-                continue;
-            }
+            let Some(bounds) = open.bounds().filter(|_| wanted(index)) else { continue };
             let corners = view.volume.points(view.volume.frontier()[index]);
             let face = FaceGrid::new(corners.map(|point| against_from_camera.transform(&point)));
-            if is_beside(volume, face.corners()) {
+            let (corners, count) = face.patch(bounds);
+            if is_beside(volume, &corners[..count]) {
                 continue;
             }
             if !loaded {
                 self.slicer.load(volume, shape);
                 loaded = true;
             }
-            if let Some(after) = self.take(open, volume, shape, &face, only) {
+            if let Some(after) = self.take((open, bounds), volume, shape, &face, only) {
                 self.changed.push((index, after));
             }
         }
@@ -219,13 +218,13 @@ impl Work {
     /// What is left of the open part of a face beside a volume; `None` where nothing is taken.
     fn take(
         &mut self,
-        open: &OpenPart,
+        (open, bounds): (&OpenPart, [[i32; 2]; 2]),
         volume: &LocalVolume,
         shape: Shape,
         face: &FaceGrid,
         only: Option<&dyn Fn(u16) -> bool>,
     ) -> Option<OpenPart> {
-        match self.slicer.slice(volume, shape, face, only) {
+        match self.slicer.slice(volume, shape, face, bounds, only) {
             Covered::Nothing => None,
             Covered::Everything => Some(OpenPart::closed()),
             Covered::Slices => {
@@ -239,16 +238,16 @@ impl Work {
     }
 }
 
-/// Whether a triangle in the frame `camera` of a volume lies beyond one side of its image, or behind.
-fn is_beside(volume: &LocalVolume, corners: [Point3<f64>; 3]) -> bool {
+/// Whether a polygon in the frame `camera` of a volume lies beyond one side of its image, or behind.
+fn is_beside(volume: &LocalVolume, corners: &[Point3<f64>]) -> bool {
     let camera = volume.camera();
     let [last_column, last_row] = volume.extent().map(f64::from);
     // The place in the image times the depth; with the depth it tells on which side of the image.
-    let sides = corners.map(|p| {
+    let sides = |p: &Point3<f64>| {
         let [u, v] = [camera.cx * p.z + camera.fx * p.x, camera.cy * p.z + camera.fy * p.y];
         [u, last_column * p.z - u, v, last_row * p.z - v, p.z]
-    });
-    (0..5).any(|side| sides.iter().all(|corner| corner[side] < 0.0))
+    };
+    (0..5).any(|side| corners.iter().all(|corner| sides(corner)[side] < 0.0))
 }
 
 /// Whether the open frontier of a view comes near the volume of the other at all.

@@ -7,7 +7,8 @@
 //!    the face once, whichever tetrahedron asks.
 //! 3. So a tetrahedron gives nothing, or a slice of three or four corners; neighbours share their sides
 //!    exactly, and the slices leave no gap between them.
-//! 4. What lies beyond the sides of the other image, or beyond the face, is cut off.
+//! 4. What lies beyond the sides of the other image, or beyond the face, is cut off. Of a face that is closed but for
+//!    a part, only what reaches into the box around that part is sliced.
 
 use geometry::planar::overlay::StepRings;
 use nalgebra::{Point3, Vector3};
@@ -41,6 +42,8 @@ pub(super) struct Slicer {
     sliced: Vec<u32>,
     now: u32,
     cells: Vec<u32>,
+    /// What is asked for of the face at hand: the rest of it is not sliced.
+    bounds: [[i32; 2]; 2],
     /// Sides of the image that the face crosses, as functions of places on its grid, not negative inside.
     lines: Vec<[f64; 3]>,
     chain: Vec<[i64; 2]>,
@@ -63,7 +66,8 @@ impl Slicer {
         self.now = 0;
     }
 
-    /// What of a face, given in the frame `camera` of the volume, lies inside of the shape that was loaded.
+    /// What of a face, given in the frame `camera` of the volume, lies inside of the shape that was loaded; only what
+    /// reaches into the box `bounds` of its grid is sliced, so little is left costs little.
     ///
     /// With `only`, of the tetrahedra under the faces of the surface that it holds.
     pub fn slice(
@@ -71,17 +75,20 @@ impl Slicer {
         volume: &LocalVolume,
         shape: Shape,
         face: &FaceGrid,
+        bounds: [[i32; 2]; 2],
         only: Option<&dyn Fn(u16) -> bool>,
     ) -> Covered {
         self.slices.clear();
-        let corners = face.corners();
+        self.bounds = bounds;
+        let (corners, corner_count) = face.patch(bounds);
+        let corners = &corners[..corner_count];
         let nearest_m = corners.iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
         let farthest_m = corners.iter().map(|p| p.z).fold(f64::NEG_INFINITY, f64::max);
         if farthest_m <= NEAR_M || nearest_m > volume.deepest_m() + shape.shift_m {
             return Covered::Nothing;
         }
-        let (mut polygon, mut count) = ([[0.0; 2]; 4], 0);
-        let within = self.footprint(volume, shape, &corners, &mut polygon, &mut count);
+        let (mut polygon, mut count) = ([[0.0; 2]; 5], 0);
+        let within = self.footprint(volume, shape, corners, &mut polygon, &mut count);
         let Some(within) = within else { return Covered::Nothing };
         let polygon = &polygon[..count];
         let cells = volume.cells();
@@ -169,8 +176,8 @@ impl Slicer {
         &self,
         volume: &LocalVolume,
         shape: Shape,
-        corners: &[Point3<f64>; 3],
-        polygon: &mut [[f64; 2]; 4],
+        corners: &[Point3<f64>],
+        polygon: &mut [[f64; 2]; 5],
         count: &mut usize,
     ) -> Option<bool> {
         let camera = volume.camera();
@@ -179,7 +186,7 @@ impl Slicer {
                 [camera.cx + camera.fx * p.x / p.z, camera.cy + camera.fy * p.y / p.z];
             *count += 1;
         };
-        let mut a = &corners[2];
+        let mut a = &corners[corners.len() - 1];
         for b in corners {
             if (a.z < NEAR_M) != (b.z < NEAR_M) {
                 let mut cut = a + (b - a) * ((NEAR_M - a.z) / (b.z - a.z));
@@ -219,6 +226,10 @@ impl Slicer {
                 below[down] = corner;
                 down += 1;
             }
+        }
+        // A slice lies between the corners, on the grid as in space.
+        if up == 0 || down == 0 || !self.may_reach_bounds([a, b, c, apex]) {
+            return;
         }
         self.chain.clear();
         match (up, down) {
@@ -269,6 +280,16 @@ impl Slicer {
         } else if turns < 0 {
             self.slices.push(self.chain.iter().rev().map(place));
         }
+    }
+
+    /// Whether what lies between corners of the volume may take something of what is asked for.
+    fn may_reach_bounds(&self, corners: [u16; 4]) -> bool {
+        let [low, high] = self.bounds;
+        (0..2).all(|axis| {
+            let at = corners.map(|corner| self.values[corner as usize][1 + axis]);
+            let (low, high) = (f64::from(low[axis]) - 1.0, f64::from(high[axis]) + 1.0);
+            at.iter().any(|x| *x > low) && at.iter().any(|x| *x < high)
+        })
     }
 
     /// Where the edge between a vertex above the plane and one below crosses it, on the grid of the face.
