@@ -95,13 +95,15 @@ impl Work {
             let (above, below) = (orient(u, v, &off, p), orient(u, v, &off, q));
             shares.push(above / (above - below));
         }
-        shares.retain(|&t| t > NEAR_END && t < 1.0 - NEAR_END);
+        shares.retain(|&t| t > 0.0 && t < 1.0);
         shares.sort_by(f64::total_cmp);
-        let middle = shares.len() / 2;
-        let mut ranked: Vec<(usize, f64)> =
-            shares.into_iter().enumerate().map(|(i, t)| (i.abs_diff(middle), t)).collect();
-        ranked.sort_by_key(|&(rank, _)| rank);
-        ranked.into_iter().map(|(_, t)| t).collect()
+        let (mut far, mut near): (Vec<f64>, Vec<f64>) =
+            shares.into_iter().partition(|&t| t > NEAR_END && t < 1.0 - NEAR_END);
+        middle_first(&mut far);
+        // In a layer as thin as a jitter all that passes does so next to an end.
+        middle_first(&mut near);
+        far.extend(near);
+        far
     }
 
     /// Divides a missing facet by a point in it, up to rounding.
@@ -157,5 +159,16 @@ impl Work {
             }
         }
         self.splits.push(Split { vertex, facets: before, parts });
+    }
+}
+
+/// Puts ascending numbers into the order of how far they are from the middle one of them.
+fn middle_first(shares: &mut [f64]) {
+    let middle = shares.len() / 2;
+    let mut ranked: Vec<(usize, f64)> =
+        shares.iter().enumerate().map(|(i, &t)| (i.abs_diff(middle), t)).collect();
+    ranked.sort_by_key(|&(rank, _)| rank);
+    for (share, (_, ranked)) in shares.iter_mut().zip(ranked) {
+        *share = ranked;
     }
 }
