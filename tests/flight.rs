@@ -142,6 +142,35 @@ fn a_mesh_file_is_flown_in_and_replaces_another_place() {
 }
 
 #[test]
+fn what_a_camera_did_not_read_is_frontier_where_it_ends_to_read() {
+    let desk = Desk::new(SMALL);
+    let sets = ["camera.far_m=1.5", "max_steps=1"];
+    for kind in ["relative", "global_union"] {
+        let map = format!("map3d.{kind}.vertices=200");
+        let sets: Vec<&str> =
+            sets.iter().chain([&map.as_str()]).flat_map(|set| ["--set", *set]).collect();
+        let run = [&["run", "a.toml", "--json", "--force"][..], &sets].concat();
+        let result = json(&desk.driftlab(&run));
+        let left_m2 =
+            result["metrics"]["maps"][kind]["frontier_left_m2"].as_f64().expect("a number");
+        // The base of a pyramid of 100 by 90 degrees at 1.5 m is 10.7 square metres, at 8 m 305.
+        assert!((1.0..16.0).contains(&left_m2), "{kind}: {left_m2} m²");
+    }
+}
+
+#[test]
+fn a_robot_that_gets_out_through_a_hole_ends_there() {
+    let desk = Desk::new(SMALL);
+    desk.put("hole.obj", &BOX.replace("f 4 8 5 1\n", ""));
+    let start = ["--set", "start={x_m=0.3,y_m=1.5,heading_deg=180}", "--set", "max_steps=60"];
+    let run = [&["run", "a.toml", "--world", "hole.obj", "--json"][..], &start].concat();
+    let output = desk.driftlab(&run);
+    let result = json(&output);
+    assert_eq!(result["metrics"]["maps"]["relative"]["termination"], "left_the_place");
+    assert!(stderr(&output).contains("hole"), "{}", stderr(&output));
+}
+
+#[test]
 fn a_sweep_over_flights_has_a_row_for_each() {
     let desk =
         Desk::new(&format!("{SMALL}[sweep]\nseeds = 2\n[sweep.axes]\nodometry.scale = [0, 1]\n"));

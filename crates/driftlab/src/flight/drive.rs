@@ -6,7 +6,7 @@ use explore::{Ending, FlightExplorer, FlightGiveUp, FlightParams, FlightReport};
 use maps3d::Map3d;
 use metrics::FlightWitness;
 use sensing::FlyingRobot;
-use worlds::{FlyerParams, SimFlyer};
+use worlds::{FlyerParams, SimFlyer, World3d};
 
 use super::maps::{Side, map_of};
 use super::timed::TimedFlyer;
@@ -93,7 +93,7 @@ where
             rider.costs.record_micros.push(record_micros);
         }
         step += 1;
-        if report.ending.is_some() {
+        if report.ending.is_some() || !holds(&place.world, &witness) {
             break report;
         }
     };
@@ -107,6 +107,14 @@ where
         runs.push(FlightRun { name: rider.name, metrics, timing, rows: rider.rows });
     }
     Ok(runs)
+}
+
+/// Whether the robot is where the place is: through a hole in a mesh it gets out, and would never come to an end
+/// of the empty space there.
+fn holds(world: &World3d, witness: &FlightWitness) -> bool {
+    let (low, high) = world.bounds();
+    let at = witness.world_from_body().translation;
+    (0..3).all(|axis| (low[axis]..=high[axis]).contains(&at[axis]))
 }
 
 fn micros(all: &[Duration]) -> impl Iterator<Item = f64> + '_ {
@@ -284,7 +292,10 @@ impl Rider {
             path_shortening: (work.paths_m > 0.0).then(|| 1.0 - work.shortened_m / work.paths_m),
             odometry_error_m: (witness.world_from_body().translation - world_from_odom.translation)
                 .norm(),
-            termination: ending_name(report.ending).to_owned(),
+            termination: match holds(witness.robot().world(), witness) {
+                true => ending_name(report.ending).to_owned(),
+                false => "left_the_place".to_owned(),
+            },
         }
     }
 }

@@ -4,19 +4,22 @@ use std::time::Instant;
 
 use geometry::Point3;
 use maps3d::global_union::UnionMap;
-use maps3d::relative::RelativeMap;
+use maps3d::relative::{RelativeMap, RelativeParams};
 use maps3d::{
     FlightClearance, FlightRoute, FrontierPatch, Hovering, Known, Look, Map3d, Map3dProbe,
-    MapTally, MapWork, Maps3dError, VoxelMap,
+    MapTally, MapWork, Maps3dError, Sights, VoxelMap, VoxelParams,
 };
 use pose::Se3;
 use posegraph::PoseGraph;
 use probe::{EdgeId, VertexId};
+use worlds::CameraParams;
 
 use crate::config::Config;
 use crate::run::{AtWork, TimedProbe};
 
 /// The map of a kind, if the config builds it.
+///
+/// Maps are told how far the camera reads: where it read nothing, it read nothing up to there.
 ///
 /// # Errors
 /// Where its parameters do not go together.
@@ -25,17 +28,30 @@ pub(super) fn map_of(
     kind: &str,
 ) -> Result<Option<Box<dyn Map3d + Send>>, Maps3dError> {
     let Some(maps) = &config.map3d else { return Ok(None) };
+    let far_m = CameraParams::from(&config.camera.clone().unwrap_or_default()).far_m;
     let made: Option<Box<dyn Map3d + Send>> = match kind {
         "relative" => match &maps.relative {
-            Some(map) => Some(Box::new(RelativeMap::new(map.into())?)),
+            Some(map) => {
+                let mut params = RelativeParams::from(map);
+                params.view.prepare.far_m = far_m;
+                Some(Box::new(RelativeMap::new(params)?))
+            }
             None => None,
         },
         "global_union" => match &maps.global_union {
-            Some(map) => Some(Box::new(UnionMap::new(map.params(&config.odometry))?)),
+            Some(map) => {
+                let mut params = map.params(&config.odometry);
+                params.view.prepare.far_m = far_m;
+                Some(Box::new(UnionMap::new(params)?))
+            }
             None => None,
         },
         "voxels" => match &maps.voxels {
-            Some(map) => Some(Box::new(VoxelMap::new(map.into())?)),
+            Some(map) => {
+                let params = VoxelParams::from(map);
+                let range_m = params.range_m.min(far_m);
+                Some(Box::new(VoxelMap::new(VoxelParams { range_m, ..params })?))
+            }
             None => None,
         },
         _ => None,
@@ -170,6 +186,23 @@ impl Map3d for Side {
 
     fn knows(&self, hovering: &Hovering, point_in_body: &Point3) -> Known {
         self.inner.knows(hovering, point_in_body)
+    }
+
+    fn free_lines(
+        &mut self,
+        hovering: &Hovering,
+        lines_in_body: &[[Point3; 2]],
+        short_m: f64,
+    ) -> Vec<bool> {
+        self.timed(|map| map.free_lines(hovering, lines_in_body, short_m))
+    }
+
+    fn meets_solid(&mut self, hovering: &Hovering, points_in_body: &[Point3]) -> bool {
+        self.timed(|map| map.meets_solid(hovering, points_in_body))
+    }
+
+    fn sights_of(&mut self, hovering: &Hovering, point_in_body: &Point3) -> Sights {
+        self.timed(|map| map.sights_of(hovering, point_in_body))
     }
 
     fn work(&self) -> MapWork {

@@ -77,7 +77,8 @@ pub struct FlightMetrics {
     pub path_shortening: Option<f64>,
     /// Distance between where odometry alone believes the robot in the end and where it is, metres.
     pub odometry_error_m: f64,
-    /// How the run ended.
+    /// How the run ended: `complete`, `stuck`, `step_limit`, or `left_the_place` for a robot that got out of the bounds
+    /// of a mesh with a hole.
     pub termination: String,
 }
 

@@ -80,7 +80,8 @@ impl Frontier {
 
     /// Area of what counts, square metres.
     pub fn open_m2(&self) -> f64 {
-        self.patches.iter().map(|patch| patch.area_m2).sum()
+        // The sum of nothing is -0.0 otherwise.
+        self.patches.iter().fold(0.0, |sum, patch| sum + patch.area_m2)
     }
 
     /// Memory held on the heap, bytes.

@@ -10,6 +10,7 @@ use solid::mesh::weld;
 
 use super::super::failure::Failure;
 use super::super::out::Out;
+use crate::config::never_ends;
 
 /// A mesh that was read.
 pub(super) struct Read {
@@ -24,11 +25,16 @@ pub(super) struct Read {
 /// Reads a mesh; what was odd about it goes to standard error.
 pub(super) fn mesh(path: &Path, welds: bool, out: &Out) -> Result<Read, Failure> {
     let start = Instant::now();
+    if never_ends(path) {
+        let path = path.display();
+        return Err(Failure::Input(anyhow!("{path}: is no ordinary file; expected a mesh")));
+    }
     let bytes = std::fs::read(path)
         .map_err(|error| Failure::Input(anyhow!("{}: {error}; expected a mesh", path.display())))?;
     let extension = path.extension().and_then(|extension| extension.to_str());
     // The points of a .poly may stand in a file of their own beside it.
-    let nodes = std::fs::read(path.with_extension("node")).ok();
+    let beside = path.with_extension("node");
+    let nodes = if never_ends(&beside) { None } else { std::fs::read(&beside).ok() };
     let file = mesh::read(&bytes, extension, nodes.as_deref())
         .map_err(|error| Failure::Input(anyhow!("{}: {error}", path.display())))?;
     if file.left_out > 0 {

@@ -58,7 +58,22 @@ pub(super) fn run(args: &RunArgs, loaded: &Loaded, dir: &Path, out: &Out) -> Res
     Ok(())
 }
 
+/// Says of every map whose robot ended otherwise than by itself how that was.
+fn note_endings(outcome: &FlightOutcome, out: &Out) {
+    for (name, map) in &outcome.metrics.maps {
+        let why = match map.termination.as_str() {
+            "left_the_place" => {
+                "the robot flew out of the bounds of the place: its mesh has a hole"
+            }
+            "step_limit" => "the robot came to max_steps first",
+            _ => continue,
+        };
+        out.note(&format!("warning: {name}: {why}"));
+    }
+}
+
 fn report(dir: &Path, outcome: &FlightOutcome, out: &Out) -> Result<(), Failure> {
+    note_endings(outcome, out);
     let metrics = to_json(&outcome.metrics).map_err(Failure::work)?;
     let timing = to_json(&outcome.timing).map_err(Failure::work)?;
     let header = [
