@@ -19,8 +19,10 @@
 //!    is judged by the views of the vertex where it starts, and by nothing else: they know no drift. Where no
 //!    place will do, the views of vertices nearby are tried in the same way.
 //!    Before it flies, the robot looks that way, if nobody looked 30 degrees to both sides of it from here: noise
-//!    may have pushed it to a wall that it never saw. Above and below it has no eyes; there it is held against
-//!    what others saw that the first half metre meets nothing solid.
+//!    may have pushed it to a wall that it never saw. Above and below it has no eyes (`leave.rs`): there it is held
+//!    against what others saw that the first half metre meets nothing solid, and that the body keeps the widest
+//!    margin from it or gets no nearer to it. Noise may have pushed it against an edge, and then it touches
+//!    that edge when it climbs however little.
 //! 3. **Put off** (`later.rs`). Frontier that no place has in view now waits: often looks from elsewhere close
 //!    it, or lead to a place that has it in view. When nothing else is left a new round begins, in which more
 //!    vertices are tried, those nearest to the frontier first; and where it cannot be looked at from any of
@@ -50,6 +52,7 @@ mod aim;
 mod events;
 mod explorer;
 mod later;
+mod leave;
 mod memory;
 mod motion;
 mod nearby;

@@ -111,6 +111,31 @@ impl Panorama {
         })
     }
 
+    /// Calls with what the pixels saw within `reach_m` of the root, in its frame: one point for each square of four.
+    pub(super) fn near_points(
+        &self,
+        root_from_vertex: &Se3,
+        reach_m: f64,
+        mut call: impl FnMut(Point3),
+    ) {
+        for seen in &self.looks {
+            let root_from_camera = *root_from_vertex * seen.vertex_from_camera;
+            let root = root_from_camera.inverse_transform(&Point3::origin());
+            let squares = seen.columns.saturating_sub(1);
+            for (at, &depth_m) in seen.free_m.iter().enumerate() {
+                // What is so much deeper or less deep than the root is far from it.
+                if depth_m <= 0.0 || (f64::from(depth_m) - root.z).abs() > reach_m {
+                    continue;
+                }
+                let (column, row) = ((at % squares) as f64 + 0.5, (at / squares) as f64 + 0.5);
+                let point = seen.camera.point_in_camera(column, row, depth_m.into());
+                if (point - root).norm_squared() <= reach_m * reach_m {
+                    call(root_from_camera.transform(&point));
+                }
+            }
+        }
+    }
+
     /// Whether some image has the direction of a point in it, by at least so many pixels from its border.
     pub(super) fn has_in_view(&self, point_in_vertex: &Point3, border_px: f64) -> bool {
         self.looks.iter().any(|seen| {

@@ -35,14 +35,10 @@ const ASKED: usize = 80;
 const LATE_ASKED: usize = 320;
 /// An approach gains at least so much, metres.
 const NEARER_M: f64 = 0.4;
-/// How a body that leaves is looked at where its vertex has no eyes: steps and slack in metres, and yaws.
-const LEAVE_STEP_M: f64 = 0.1;
-const LEAVE_SLACK_M: f64 = 0.03;
-const LEAVE_YAWS: usize = 8;
 /// No margin is kept.
 const NO_MARGIN: u8 = 254;
 /// The depth images show something in the way.
-const BLOCKED: u8 = 255;
+pub(super) const BLOCKED: u8 = 255;
 /// A plan so near to where it begins is none to fly, metres: the robot only turns.
 pub(super) const STAYS_M: f64 = 0.01;
 /// Of the fan, every so manyth yaw, elevation and distance is asked for lines of sight through all that is
@@ -128,42 +124,6 @@ impl FlightExplorer {
     /// Whether a straight flight from a vertex keeps clear of everything, by the least margin.
     pub(super) fn may_fly(&mut self, at: VertexId, place: &Point3) -> bool {
         self.margin_of(at, place) < NO_MARGIN
-    }
-
-    /// Whether a body that leaves a vertex towards a place meets nothing solid that is above or below the images
-    /// of the vertex, as far as views around saw it; a place where it does is not asked for again.
-    ///
-    /// Those views are placed along the graph, so this is not for certain; but noise may have pushed the robot
-    /// right under a ledge that it cannot see any more.
-    pub(super) fn may_leave(&mut self, at: VertexId, place: &Point3) -> bool {
-        let Some(seen) = self.seen.get(at) else { return false };
-        let (radius_m, length_m) = (self.params.body_radius_m, place.coords.norm());
-        let way = place.coords / length_m.max(1e-9);
-        let steps = (self.params.leaving_m.min(length_m) / LEAVE_STEP_M).floor() as usize;
-        let mut points: Vec<Point3> = Vec::new();
-        for step in 1..=steps {
-            let middle = way * (step as f64 * LEAVE_STEP_M);
-            for yaw in 0..LEAVE_YAWS {
-                let yaw_rad = std::f64::consts::TAU * yaw as f64 / LEAVE_YAWS as f64;
-                for elevation_deg in [-90.0_f64, -65.0, -40.0, 40.0, 65.0, 90.0] {
-                    let (sin, cos) = elevation_deg.to_radians().sin_cos();
-                    let by = Vector3::new(cos * yaw_rad.cos(), cos * yaw_rad.sin(), sin);
-                    let point = Point3::from(middle + by * radius_m);
-                    // The body is at the start already.
-                    let is_new = point.coords.norm() > radius_m + LEAVE_SLACK_M;
-                    if is_new && !seen.has_in_view(&point, 0.0) {
-                        points.push(point);
-                    }
-                }
-            }
-        }
-        let hovering = Hovering { vertex: at, vertex_from_body: Se3::identity() };
-        let may = points.is_empty() || !self.maps[0].meets_solid(&hovering, &points);
-        if !may {
-            let key = (at, [place.x, place.y, place.z].map(f64::to_bits));
-            self.margins_known.insert(key, BLOCKED);
-        }
-        may
     }
 
     /// The first of the margins that a straight flight from a vertex keeps, as its number; [`NO_MARGIN`] for

@@ -11,8 +11,8 @@ use super::insert::PlacedView;
 use super::volume::Shape;
 use crate::{Hovering, Map3dProbe, Sights};
 
-/// How much farther along the graph, as a multiple of the consolidation radius.
-const FARTHER: f64 = 2.0;
+/// What a metre of a place edge counts as here: placement goes where there is the least odometry.
+const PLACE_WEIGHT: f64 = 0.01;
 
 /// A point at this share of its distance lies before everything.
 const NEAR_SHARE: f64 = 1e-3;
@@ -24,16 +24,21 @@ const BORDER_PX: f64 = 1.0;
 const CAUSES: [Cause; 3] = [Cause::Inside, Cause::Wall, Cause::Behind];
 
 impl RelativeMap {
-    /// Compares the frontier of the views of a vertex with all views within twice the consolidation radius.
+    /// Compares the frontier of the views of a vertex with all views between which and it there is no more odometry
+    /// than the consolidation radius, each placed along the way with the least of it.
     ///
-    /// What was seen from far round, through a gap that the robot does not fit through, may lie in views that
-    /// are near in space and far along the graph. The farther the way, the more drift; so it comes last. And
+    /// A short way may drift more than a long one: only its odometry does, and place edges are many where the robot
+    /// was often. What is seen at the far end of an image is off by metres after one hop. And what was seen from far
+    /// round, through a gap that the robot does not fit through, may lie in views that are near in space and far along
+    /// the graph. Such scopes reach far, so this comes last; those that drift least come first. And
     /// what lies up to twice as far behind walls as is closed otherwise is closed: reduced surfaces of far views
     /// cut through pillars and furniture, where nobody can ever look. Whether views contradict each other is not
     /// asked any more: what is left was looked at from wherever it can be, or from nowhere.
     pub(super) fn compare_with_farther(&mut self, vertex: VertexId, probe: &mut dyn Map3dProbe) {
         self.cover(vertex);
-        let radius_m = FARTHER * self.params.consolidation_radius_m;
+        let least = self.skeleton.reweighed(PLACE_WEIGHT);
+        let usual = std::mem::replace(&mut self.skeleton, least);
+        let radius_m = self.params.consolidation_radius_m;
         self.scratch.place(&self.skeleton, vertex, radius_m, &mut self.scope);
         // Nobody else asks for a scope of this radius.
         self.scope_is_fresh = false;
@@ -53,14 +58,16 @@ impl RelativeMap {
             }
         }
         self.measure_touched();
+        self.skeleton = usual;
     }
 
-    /// What views of other vertices within twice the consolidation radius say of a point; retired ones as well.
+    /// What views of other vertices that are placed in this way say of a point; retired ones as well.
     pub(super) fn sights(&mut self, hovering: &Hovering, point_in_body: &Point3<f64>) -> Sights {
         self.cover(hovering.vertex);
-        let radius_m = FARTHER * self.params.consolidation_radius_m;
+        let least = self.skeleton.reweighed(PLACE_WEIGHT);
         let mut scope = Scope::default();
-        self.scratch.place(&self.skeleton, hovering.vertex, radius_m, &mut scope);
+        let radius_m = self.params.consolidation_radius_m;
+        self.scratch.place(&least, hovering.vertex, radius_m, &mut scope);
         let in_root = hovering.vertex_from_body.transform(point_in_body);
         let mut sights = Sights::default();
         for row in scope.placed().iter().skip(1) {

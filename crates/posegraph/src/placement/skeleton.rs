@@ -154,6 +154,24 @@ impl<P: RelativePose> Skeleton<P> {
         self
     }
 
+    /// The same ways, with a metre of place edges counting as so many, above 0: near 0, placement goes where
+    /// there is the least odometry.
+    ///
+    /// What was [retired](Self::retire) stays contracted to the ways that were the shortest then. O(links).
+    #[must_use]
+    pub fn reweighed(&self, place_weight: f64) -> Self {
+        let weigh = |links: &[Link<P>]| -> Vec<Link<P>> {
+            let length_m =
+                |link: &Link<P>| link.odometry_m + place_weight * (link.driven_m - link.odometry_m);
+            links.iter().map(|link| Link { length_m: length_m(link), ..link.clone() }).collect()
+        };
+        let nodes = self
+            .nodes
+            .iter()
+            .map(|node| Node { links: weigh(&node.links), spare: weigh(&node.spare) });
+        Self { nodes: nodes.collect(), place_weight, ..*self }
+    }
+
     /// Makes room for vertices up to and including `vertex`.
     pub fn cover(&mut self, vertex: VertexId) {
         while self.nodes.next_id() <= vertex {
