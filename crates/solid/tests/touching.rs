@@ -2,9 +2,10 @@
 
 use pose::Se3;
 use pose::nalgebra::{UnitQuaternion, Vector3};
+use probe::Off;
 use proptest::prelude::*;
-use solid::boolean::{JITTER_M, Options, obstacle_wins};
-use solid::{Label, Operation, Point3, Polyhedron, boolean, check, crossings};
+use solid::boolean::{JITTER_M, ManifoldKernel, Options, boolean_told, obstacle_wins};
+use solid::{Label, Operation, Point3, Polyhedron, boolean, check};
 
 const ALL: [Operation; 4] = [
     Operation::Union,
@@ -93,8 +94,10 @@ fn turned(mesh: &Polyhedron, axis: [f64; 3]) -> Polyhedron {
     mesh.transformed(&Se3::new(Vector3::new(1.0, 2.0, 3.0), turn))
 }
 
+/// Boxes of which some faces are coplanar, turned so that they are so up to rounding: the engine's own results
+/// meet themselves in some, have sheets without volume in others.
 #[test]
-fn jitter_leaves_no_self_intersection_in_any_operation() {
+fn what_rounding_spoils_is_made_again_with_or_without_jitter() {
     let cube = cuboid([0.0; 3], [1.0; 3], Label::Obstacle);
     let mut others = touching();
     for (low, high) in [
@@ -107,26 +110,39 @@ fn jitter_leaves_no_self_intersection_in_any_operation() {
     ] {
         others.push(cuboid(low, high, Label::Frontier));
     }
-    let mut crossed = 0;
+    let mut again = 0;
     for (index, other) in others.iter().enumerate() {
         for axis in [[0.0; 3], [0.7, 0.0, 0.5], [0.1, -1.1, 2.3]] {
             let (a, b) = (turned(&cube, axis), turned(other, axis));
             for operation in ALL {
-                let plain = boolean(&a, &b, operation, &Options::default()).expect("boxes");
-                crossed += crossings(&plain, 1).len();
+                let what = format!("{operation}, {index}, {axis:?}");
+                let options = Options::default();
+                let told = boolean_told(&ManifoldKernel, &a, &b, operation, &options, &mut Off);
+                let told = told.expect("boxes");
+                again += told.again;
+                let plain = told.mesh;
+                assert_valid(&plain, &what);
+                // Whole numbers, but for the turn: by the boxes before it.
+                let exact = boolean(&cube, other, operation, &Options::default()).expect("boxes");
+                let off = (plain.volume_m3() - exact.volume_m3()).abs();
+                assert!(off < 1e-10, "{what}: {off}");
+                let off =
+                    (plain.area_by_label().total_m2() - exact.area_by_label().total_m2()).abs();
+                assert!(off < 1e-9, "{what}: {off}");
+                assert!(told.jitter_m < 1e-10, "{what}: {}", told.jitter_m);
                 for seed in [1, 2] {
                     let options = Options { jitter_m: JITTER_M, seed, ..Options::default() };
                     let mesh = boolean(&a, &b, operation, &options).expect("boxes");
-                    assert_valid(&mesh, &format!("{operation}, {index}, {axis:?}"));
+                    assert_valid(&mesh, &what);
                     let off = (mesh.volume_m3() - plain.volume_m3()).abs();
-                    assert!(off < 2e-4, "{operation}, {index}, {axis:?}: {off}");
+                    assert!(off < 1e-6, "{what}: {off}");
                     let again = boolean(&a, &b, operation, &options).expect("boxes");
                     assert_eq!(mesh, again);
                 }
             }
         }
     }
-    assert!(crossed > 0, "without jitter some do");
+    assert!(again > 10, "without another try some do: {again}");
 }
 
 #[test]

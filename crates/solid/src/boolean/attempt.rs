@@ -6,6 +6,7 @@ use super::tags::Tags;
 use super::touching::conforming;
 use super::{Kernel, Operation, Refusal};
 use crate::predicates::{is_collinear, orient3, sign};
+use crate::validity::flat_faces;
 use crate::{Polyhedron, SolidError, crossings};
 
 /// A way to make what an operation asks for.
@@ -54,10 +55,8 @@ pub(super) fn attempt<K: Kernel>(
     tags: &Tags,
     contact: bool,
 ) -> Result<Polyhedron, SolidError> {
-    let failed =
-        |Refusal(reason): Refusal| SolidError::Engine { operation: operation.name(), reason };
     let by = |way: Way<K>| {
-        let given = kernel.give(&way(kernel, a, b).map_err(failed)?);
+        let given = kernel.give(&way(kernel, a, b).map_err(failed(operation))?);
         labelled(given, tags, operation.name())
             .map(|mesh| if contact { tidied(mesh) } else { mesh })
     };
@@ -76,6 +75,10 @@ pub(super) fn attempt<K: Kernel>(
         return Ok(plain);
     }
     apart(kernel, [(a, b), (b, a)], tags, operation).and_then(|plain| {
+        if !contact {
+            return Ok(plain);
+        }
+        let plain = tidied(plain);
         // Operands that share a part of their surface leave it twice.
         if is_whole(&plain) {
             return Ok(plain);
@@ -95,6 +98,11 @@ pub(super) fn attempt<K: Kernel>(
 /// Two ways to one solid differ in volume by no more than this share.
 const SAME_SHARE: f64 = 1e-9;
 
+/// What an engine's refusal is told as.
+pub(super) fn failed(operation: Operation) -> impl Fn(Refusal) -> SolidError {
+    move |Refusal(reason)| SolidError::Engine { operation: operation.name(), reason }
+}
+
 /// Differences laid side by side: what is left of the first of each pair without the second.
 pub(super) fn apart<K: Kernel>(
     kernel: &K,
@@ -102,21 +110,16 @@ pub(super) fn apart<K: Kernel>(
     tags: &Tags,
     operation: Operation,
 ) -> Result<Polyhedron, SolidError> {
-    let failed =
-        |Refusal(reason): Refusal| SolidError::Engine { operation: operation.name(), reason };
     let [first, second] = pairs.map(|(a, b)| {
-        kernel.combine(a, b, Operation::Difference).map_err(failed).map(|left| kernel.give(&left))
+        let left = kernel.combine(a, b, Operation::Difference).map_err(failed(operation))?;
+        Ok(kernel.give(&left))
     });
-    labelled(side_by_side(first?, second?), tags, operation.name()).map(tidied)
+    labelled(side_by_side(first?, second?), tags, operation.name())
 }
 
 /// Whether no face is flat, and nothing meets that should not once edges that touch are made to match.
 fn is_whole(mesh: &Polyhedron) -> bool {
-    let flat = |face: usize| {
-        let [a, b, c] = mesh.corners(face);
-        is_collinear(a, b, c)
-    };
-    !(0..mesh.faces().len()).any(flat) && crossings(&conforming(mesh.clone()), 1).is_empty()
+    flat_faces(mesh).is_empty() && crossings(&conforming(mesh.clone()), 1).is_empty()
 }
 
 /// Whether two faces beside an edge lie on each other, or one is flat; exact. O(f log f).

@@ -2,13 +2,11 @@
 
 use probe::{Off, Probe};
 
-use super::attempt::{apart, attempt};
 use super::coincide::{Obstacles, settle};
-use super::contacts::are_in_contact;
 use super::covered::cut;
-use super::jitter::grown;
 use super::tags::Tags;
 use super::touching::conforming;
+use super::trials::{Taken, Trials};
 use super::{
     BooleanEvent, COINCIDENT_M, Combined, CurveEdge, Kernel, ManifoldKernel, Operation, Provenance,
     Refusal,
@@ -16,15 +14,8 @@ use super::{
 use crate::bvh::Aabb;
 use crate::predicates::in_envelope;
 use crate::reduce::{Cleaned, clean};
-use crate::validity::{check_topology, crossings};
+use crate::validity::check_topology;
 use crate::{Label, Point3, Polyhedron, Solid, SolidError};
-
-/// To how many times what was asked for the jitter grows, tenfold each time, where the result meets
-/// itself.
-const MOST_TIMES: f64 = 900.0;
-
-/// Faces coincide within so many times the jitter at least.
-const COINCIDENT_JITTERS: f64 = 10.0;
 
 /// How booleans are done.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -99,65 +90,47 @@ pub fn boolean_by<K: Kernel>(
     options: &Options,
     probe: &mut impl for<'x> Probe<BooleanEvent<'x>>,
 ) -> Result<Polyhedron, SolidError> {
-    looks_outwards("first", a)?;
-    looks_outwards("second", b)?;
-    probe.emit(BooleanEvent::Started { operation, a, b });
-    let mut jitter_m = options.jitter_m;
-    let contact = jitter_m > 0.0 || are_in_contact(a, b, options.coincident_m);
-    let looking = looking(a, b, operation);
-    let coincident_m = |jitter_m: f64| options.coincident_m.max(COINCIDENT_JITTERS * jitter_m);
-    let mut mesh = once(kernel, a, b, operation, options, jitter_m, contact)?;
-    while jitter_m > 0.0 && jitter_m < MOST_TIMES * options.jitter_m {
-        let whole = settled(mesh.clone(), &looking, coincident_m(jitter_m), &mut Off);
-        if crossings(&whole, 1).is_empty() {
-            break;
-        }
-        jitter_m *= 10.0;
-        mesh = once(kernel, a, b, operation, options, jitter_m, contact)?;
-    }
-    if probe.on() {
-        tell_combined(&mesh, a, b, probe);
-    }
-    let mesh = if contact {
-        settled(mesh, &looking, coincident_m(jitter_m), probe)
-    } else {
-        probe.emit(BooleanEvent::Settled { mesh: &mesh, faces: &[] });
-        mesh
-    };
-    let mesh = cleaned(mesh, options.clean_m, probe);
-    probe.emit(BooleanEvent::Finished { mesh: &mesh });
-    Ok(mesh)
+    boolean_told(kernel, a, b, operation, options, probe).map(|result| result.mesh)
 }
 
-/// Steps 1 to 4, the second operand moved by `jitter_m`.
-fn once<K: Kernel>(
+/// A result, and what it took.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BooleanResult {
+    /// What was asked for.
+    pub mesh: Polyhedron,
+    /// How far the faces of the second operand were moved for it, metres; 0 where they stayed.
+    pub jitter_m: f64,
+    /// How often the engine's result was not taken, because it met itself or was of another volume or area
+    /// than others.
+    pub again: usize,
+}
+
+/// As [`boolean_by`], telling what it took.
+///
+/// # Errors
+/// As [`boolean_with`].
+pub fn boolean_told<K: Kernel>(
     kernel: &K,
     a: &Polyhedron,
     b: &Polyhedron,
     operation: Operation,
     options: &Options,
-    jitter_m: f64,
-    contact: bool,
-) -> Result<Polyhedron, SolidError> {
-    let mut tags = Tags::new(options.provenance);
-    let (tags_a, tags_b) = (tags.of(a), tags.of(b));
-    let take_a = || kernel.take(a, &tags_a).map_err(|why| refused("first", a, why));
-    let take_b = |by_m: f64| {
-        let moved = (by_m != 0.0).then(|| grown(b, options.seed, by_m));
-        kernel.take(moved.as_ref().unwrap_or(b), &tags_b).map_err(|why| refused("second", b, why))
-    };
-    let taken_a = take_a()?;
-    // So that what coincides is on one side all over, and what only touches does not, or overlaps
-    // where that leaves no sheet.
-    let taken_b = match operation {
-        Operation::Intersection => take_b(-jitter_m)?,
-        _ => take_b(jitter_m)?,
-    };
-    if operation == Operation::SymmetricDifference && jitter_m > 0.0 {
-        let smaller_b = take_b(-jitter_m)?;
-        return apart(kernel, [(&taken_a, &taken_b), (&smaller_b, &taken_a)], &tags, operation);
+    probe: &mut impl for<'x> Probe<BooleanEvent<'x>>,
+) -> Result<BooleanResult, SolidError> {
+    looks_outwards("first", a)?;
+    looks_outwards("second", b)?;
+    probe.emit(BooleanEvent::Started { operation, a, b });
+    let looking = looking(a, b, operation);
+    let trials = Trials::new(kernel, [a, b], operation, options, &looking, probe.on());
+    let Taken { trial, again } = trials.taken()?;
+    if let Some(combined) = trial.combined {
+        tell_combined(&combined, a, b, probe);
+        // What was settled without a witness is settled the same way once more.
+        trials.settled(combined, trial.jitter_m, trial.contact, probe);
     }
-    attempt(kernel, &taken_a, &taken_b, operation, &tags, contact)
+    let mesh = cleaned(trial.mesh, options.clean_m, probe);
+    probe.emit(BooleanEvent::Finished { mesh: &mesh });
+    Ok(BooleanResult { mesh, jitter_m: trial.jitter_m, again })
 }
 
 /// The operands, and which way their faces look in the result.

@@ -3,19 +3,39 @@
 use super::coincide::PARALLEL;
 use crate::bvh::Aabb;
 use crate::predicates::{in_triangle, orient3};
+use crate::query::distance_to_triangle;
 use crate::{Point3, Polyhedron};
 
 /// Sets of faces so small that each is held against each.
 const FEW_PAIRS: usize = 128;
 
-/// Whether a vertex of one mesh lies exactly on a face of the other, or two faces lie in planes that are
-/// alike within `eps_m` where they are near each other.
+/// So much of the largest coordinate is what rounding leaves of a contact: a turn, then a boolean.
+pub(super) const ROUNDING: f64 = 1024.0 * f64::EPSILON;
+
+/// How the surfaces of two operands lie to each other.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(super) enum Contacts {
+    /// They only pass through each other: nothing coincides, no fold is left and no part without volume.
+    None,
+    /// Vertices of one lie exactly on faces of the other, or faces lie in planes that are alike within what
+    /// coincides.
+    Sharp,
+    /// As before, but for rounding: which of two faces is in front may differ from corner to corner.
+    Rounded,
+}
+
+/// How the surfaces of two meshes lie to each other; faces in planes that are alike within `eps_m` are in contact
+/// where they are near each other.
 ///
-/// Where neither is so, surfaces only pass through each other: nothing coincides, no fold is left and
-/// no part without volume. Faces are parted by halves; of each pair of sets only what touches the box of
+/// Faces are parted by halves; of each pair of sets only what touches the box of
 /// the other stays, so that soon only faces along the curve are left. O(n log n) for n faces where
 /// surfaces meet along curves.
-pub(super) fn are_in_contact(a: &Polyhedron, b: &Polyhedron, eps_m: f64) -> bool {
+pub(super) fn contacts(a: &Polyhedron, b: &Polyhedron, eps_m: f64) -> Contacts {
+    let reach_m = |mesh: &Polyhedron| {
+        mesh.bounds().map_or(0.0, |(low, high)| low.coords.amax().max(high.coords.amax()))
+    };
+    let rounding_m = ROUNDING * reach_m(a).max(reach_m(b));
+    let mut worst = Contacts::None;
     let boxes = |mesh: &Polyhedron| -> Vec<Aabb> {
         (0..mesh.faces().len()).map(|face| Aabb::around(mesh.corners(face)).grown(eps_m)).collect()
     };
@@ -33,8 +53,11 @@ pub(super) fn are_in_contact(a: &Polyhedron, b: &Polyhedron, eps_m: f64) -> bool
             for &i in &some_a {
                 for &j in &some_b {
                     let (i, j) = (i as usize, j as usize);
-                    if of_a[i].touches(&of_b[j]) && meet_flat(a.corners(i), b.corners(j), eps_m) {
-                        return true;
+                    if of_a[i].touches(&of_b[j]) {
+                        worst = worst.max(meeting(a.corners(i), b.corners(j), eps_m, rounding_m));
+                        if worst == Contacts::Rounded {
+                            return worst;
+                        }
                     }
                 }
             }
@@ -46,7 +69,7 @@ pub(super) fn are_in_contact(a: &Polyhedron, b: &Polyhedron, eps_m: f64) -> bool
             waiting.extend([(some_a.clone(), low), (some_a, high)]);
         }
     }
-    false
+    worst
 }
 
 /// Faces parted along the axis on which their middles are spread most: at the middle, or by
@@ -68,16 +91,28 @@ fn halves(mut faces: Vec<u32>, boxes: &[Aabb]) -> [Vec<u32>; 2] {
     [below, above]
 }
 
-fn meet_flat(a: [&Point3; 3], b: [&Point3; 3], eps_m: f64) -> bool {
-    let lies_on =
-        |p: &Point3, on: [&Point3; 3]| orient3(on[0], on[1], on[2], p) == 0.0 && in_triangle(p, on);
-    if a.iter().any(|p| lies_on(p, b)) || b.iter().any(|p| lies_on(p, a)) {
-        return true;
-    }
+fn meeting(a: [&Point3; 3], b: [&Point3; 3], eps_m: f64, rounding_m: f64) -> Contacts {
     let [n, m] = [a, b].map(|[p, q, r]| (q - p).cross(&(r - p)).try_normalize(0.0));
-    let (Some(n), Some(m)) = (n, m) else { return true };
-    let heights = b.map(|p| (p - a[0]).dot(&n));
-    n.dot(&m).abs() > 1.0 - PARALLEL
-        && heights.iter().any(|&h| h <= eps_m)
-        && heights.iter().any(|&h| h >= -eps_m)
+    let (Some(n), Some(m)) = (n, m) else { return Contacts::Sharp };
+    let above_a = b.map(|p| (p - a[0]).dot(&n));
+    let above_b = a.map(|p| (p - b[0]).dot(&m));
+    let mut found = Contacts::None;
+    for (points, heights, on) in [(b, above_a, a), (a, above_b, b)] {
+        for (p, height) in points.into_iter().zip(heights) {
+            // The height is off by less than what is rounding here.
+            if height.abs() <= 2.0 * rounding_m && distance_to_triangle(p, on) <= rounding_m {
+                let sharp = orient3(on[0], on[1], on[2], p) == 0.0 && in_triangle(p, on);
+                found = found.max(if sharp { Contacts::Sharp } else { Contacts::Rounded });
+            }
+        }
+    }
+    let alike = n.dot(&m).abs() > 1.0 - PARALLEL
+        && above_a.iter().any(|&h| h <= eps_m)
+        && above_a.iter().any(|&h| h >= -eps_m);
+    if !alike {
+        return found;
+    }
+    let in_plane = |p: &Point3| orient3(a[0], a[1], a[2], p) == 0.0;
+    let rounded = above_a.iter().all(|h| h.abs() <= rounding_m) && !b.into_iter().all(in_plane);
+    found.max(if rounded { Contacts::Rounded } else { Contacts::Sharp })
 }

@@ -37,6 +37,7 @@
 //! here the obstacle wins.
 
 mod attempt;
+mod changed;
 mod coincide;
 mod combine;
 mod contacts;
@@ -49,10 +50,11 @@ mod manifold;
 mod surgery;
 mod tags;
 mod touching;
+mod trials;
 mod unite;
 
 pub use coincide::{COINCIDENT_M, obstacle_wins};
-pub use combine::{Options, boolean, boolean_by, boolean_with};
+pub use combine::{BooleanResult, Options, boolean, boolean_by, boolean_told, boolean_with};
 pub use events::{BooleanEvent, CurveEdge};
 pub(crate) use jitter::mixed;
 pub use jitter::{JITTER_M, jittered};

@@ -33,7 +33,7 @@ pub struct Crossing {
 }
 
 /// The faces whose corners lie exactly on one line, ascending.
-pub(super) fn flat_faces(mesh: &Polyhedron) -> Vec<u32> {
+pub(crate) fn flat_faces(mesh: &Polyhedron) -> Vec<u32> {
     let is_flat = |face: &usize| {
         let [a, b, c] = mesh.corners(*face);
         is_collinear(a, b, c)
@@ -83,6 +83,53 @@ pub(super) fn crossings_of(mesh: &Polyhedron, flat: &[u32], limit: usize) -> Vec
     debug_assert!(broken == (found.len() >= limit));
     found.sort_by_key(|crossing| crossing.faces);
     found
+}
+
+/// Whether one of the faces `some` is flat, or has more in common with any face than corners and edges at
+/// the same places; exact.
+///
+/// O((n + k) log k) for k of n faces where few boxes touch.
+pub(crate) fn any_is_crossed(mesh: &Polyhedron, some: &[u32]) -> bool {
+    let is_flat = |face: u32| {
+        let [a, b, c] = mesh.corners(face as usize);
+        is_collinear(a, b, c)
+    };
+    if some.iter().any(|&face| is_flat(face)) {
+        return true;
+    }
+    let tree = Bvh::new(&some.iter().map(|&face| around(mesh, face)).collect::<Vec<_>>());
+    let meets = |a: u32, b: u32| {
+        let (p, q) = (mesh.corners(a as usize), mesh.corners(b as usize));
+        // The places of the second are those of the first where they are the same.
+        let place = |(j, at): (usize, &&Point3)| match p.iter().position(|other| other == at) {
+            Some(i) => i as u32,
+            None => 3 + j as u32,
+        };
+        let mut places = [0; 3];
+        for (j, at) in q.iter().enumerate() {
+            places[j] = place((j, at));
+        }
+        meet(p, [0, 1, 2], q, places).is_some()
+    };
+    let look = |a: u32, b: u32| {
+        if meets(a, b) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    };
+    let mut listed = vec![false; mesh.faces().len()];
+    for &face in some {
+        listed[face as usize] = true;
+    }
+    let whole = some.iter().fold(Aabb::empty(), |sum, &face| sum.union(&around(mesh, face)));
+    let others = (0..mesh.faces().len() as u32).filter(|&face| !listed[face as usize]);
+    tree.pairs(|a, b| look(some[a as usize], some[b as usize])).is_break()
+        || others.map(|face| (face, around(mesh, face))).any(|(face, aabb)| {
+            aabb.touches(&whole)
+                && tree
+                    .walk(
+                        |candidate| candidate.touches(&aabb),
+                        |index| look(face, some[index as usize]),
+                    )
+                    .is_break()
+        })
 }
 
 fn around(mesh: &Polyhedron, face: u32) -> Aabb {
