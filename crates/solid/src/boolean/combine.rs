@@ -28,8 +28,8 @@ pub struct Options {
     /// is cleaned has no origins.
     pub clean_m: f64,
     /// How far the faces of the second operand are moved first, metres, so that none is coplanar with one
-    /// of the first: outwards, for an intersection inwards. Where the result still meets itself, ten,
-    /// a hundred and a thousand times as far. 0 moves nothing.
+    /// of the first: outwards, for an intersection inwards. Where the result still meets itself, by other
+    /// distances, at last a thousand times as far. 0 moves nothing unless rounding spoils the result.
     pub jitter_m: f64,
     /// What part of the jitter is by chance depends on this.
     pub seed: u64,

@@ -3,7 +3,7 @@
 //! | step | file |
 //! |---|---|
 //! | 1. faces are numbered: one number for each label, or for each label and origin | `tags.rs` |
-//! | 2. where that is asked for, the faces of the second operand are moved a little, so that none is coplanar with one of the first; by more where the result meets itself | `jitter.rs`, `combine.rs` |
+//! | 2. where that is asked for, or faces are coplanar up to rounding and the plain result is not sound, the faces of the second operand are moved a little, so that none is coplanar with one of the first; otherwise where that result meets itself, too | `jitter.rs`, `trials.rs` |
 //! | 3. an engine combines the operands and gives each face the number of the one it is part of; where it leaves a fold, two sheets on each other, another way to the same solid is taken | `kernel.rs`, `manifold.rs`, `attempt.rs` |
 //! | 4. numbers become labels and origins again; parts without volume and flat faces go | `leaves.rs` |
 //! | 5. a frontier face is cut along the borders of what obstacle faces of the operands, looking the same way, cover of it; edges and faces are divided where vertices lie on them; pieces of frontier that coincide with obstacle become obstacle | `covered.rs`, `touching.rs`, `coincide.rs`, `surgery.rs` |
@@ -11,16 +11,21 @@
 //! | 7. many views are united one by one, each jittered first where they may be exactly coplanar | `unite.rs`, `jitter.rs` |
 //!
 //! Operands in general position, whose surfaces only pass through each other, need none of what steps 3 to 5
-//! do about contacts (`contacts.rs`).
+//! do about contacts (`contacts.rs`). Every result is looked at for faces that meet, as far as it is new
+//! (`changed.rs`): in general position the pieces that are so thin that rounding may turn them, and corners on
+//! the curve that one of two differences has and the other has not; otherwise all that no operand has.
 //!
 //! **Engine.** [`ManifoldKernel`] is `manifold-rust`, its exact engine by name: a port of Manifold,
 //! which decides intersections by symbolic perturbation and so always gives a 2-manifold. Geometry is
-//! right to about 1e-12 of the size of the operands; where faces are coplanar only to rounding, as in a
-//! turned copy, the result may intersect itself by as little. [`Options::jitter_m`] moves the second
-//! operand's faces outwards, for an intersection inwards, so that what was coplanar is on a known side
-//! and leaves no sheet; then results do not meet themselves. Solids that touch are apart by the jitter
-//! in a symmetric difference, and joined in a union. [`jittered`] moves the vertices of a view by chance,
-//! for unions of many. Another engine is another [`Kernel`].
+//! right to about 1e-12 of the size of the operands. Where faces are coplanar only to rounding, as in a
+//! turned copy, the engine's result may meet itself by as little, have sheets without volume, or lack a
+//! part. There the plain result is held against one with the faces of the second operand moved outwards, for an
+//! intersection inwards, by 1e-12 of the largest coordinate: so what was coplanar is on a known side and
+//! leaves no sheet. Where volumes or areas differ, or faces meet, the moved one is the result; where that meets
+//! itself, too, the move grows up to 1e-8 m. [`boolean_told`] says how far it went. [`Options::jitter_m`]
+//! moves them in any case; then solids that touch are apart by the jitter in a symmetric difference, and
+//! joined in a union. [`jittered`] moves the vertices of a view by chance, for unions of many. Another engine
+//! is another [`Kernel`].
 //!
 //! **Labels.** Faces of different numbers are never merged. With numbers for labels alone, coplanar
 //! neighbours of one label are, which leaves fewer faces; with origins, none are. Where faces of both
