@@ -50,9 +50,10 @@ pub(super) enum MeshCommand {
             Both must be closed 2-manifolds, oriented outward. Faces keep their labels; where a frontier \
             face coincides with an obstacle face, looking the same way, that part of it becomes obstacle: \
             the face is cut along the border. Where faces of A and B are coplanar to rounding, as after a \
-            turn, the result may intersect itself by as little. --jitter moves the faces of B first, \
-            outwards, for an intersection inwards, by 1e-8 m; where the result still intersects itself, \
-            by up to 1e-5 m.",
+            turn, and the result would intersect itself or be of another volume or area by it, the faces \
+            of B are moved first, outwards, for an intersection inwards, by 1e-12 of the largest \
+            coordinate, by up to 1e-8 m where that does not do. --jitter moves them by 1e-8 m in any \
+            case. jitter_m in the JSON says by how much they were moved.",
         after_help = "Examples:\n  \
             driftlab mesh boolean union a.ply b.ply -o both.ply\n  \
             driftlab mesh boolean difference part.stl tool.stl --record cut.rrd\n  \

@@ -5,8 +5,8 @@ use std::time::Instant;
 
 use anyhow::anyhow;
 use instrument::{BooleanRecording, SolidOptions};
-use solid::boolean::{JITTER_M, Options, Provenance};
-use solid::{Operation, Polyhedron, SolidError, boolean_with};
+use solid::boolean::{BooleanResult, JITTER_M, ManifoldKernel, Options, Provenance, boolean_told};
+use solid::{Operation, SolidError};
 
 use super::super::failure::Failure;
 use super::super::graph::numbers::listed;
@@ -40,16 +40,21 @@ pub(super) fn boolean(args: &BooleanArgs, out: &Out) -> Result<(), Failure> {
         None => None,
     };
     let start = Instant::now();
+    let (a_mesh, b_mesh) = (&a.mesh, &b.mesh);
     let combined = match &mut recording {
-        Some(recording) => boolean_with(&a.mesh, &b.mesh, operation, &options, recording),
-        None => boolean_with(&a.mesh, &b.mesh, operation, &options, &mut probe::Off),
+        Some(recording) => {
+            boolean_told(&ManifoldKernel, a_mesh, b_mesh, operation, &options, recording)
+        }
+        None => {
+            boolean_told(&ManifoldKernel, a_mesh, b_mesh, operation, &options, &mut probe::Off)
+        }
     };
     let secs = start.elapsed().as_secs_f64();
-    let mesh = combined.map_err(|error| refused(&error, args))?;
+    let result = combined.map_err(|error| refused(&error, args))?;
     if let Some(target) = &target {
-        target.write(&mesh)?;
+        target.write(&result.mesh)?;
     }
-    tell(&mesh, secs, a.secs + b.secs, recording, args, out)
+    tell(&result, secs, a.secs + b.secs, recording, args, out)
 }
 
 fn record(
@@ -84,15 +89,16 @@ fn refused(error: &SolidError, args: &BooleanArgs) -> Failure {
 }
 
 fn tell(
-    mesh: &Polyhedron,
+    result: &BooleanResult,
     secs: f64,
     secs_read: f64,
     recording: Option<BooleanRecording>,
     args: &BooleanArgs,
     out: &Out,
 ) -> Result<(), Failure> {
-    let told = Told::of(mesh);
+    let told = Told::of(&result.mesh);
     let mut json = told.json();
+    json["jitter_m"] = result.jitter_m.into();
     json["secs"] = secs.into();
     json["secs_read"] = secs_read.into();
     if let Some(recording) = recording {
@@ -100,6 +106,9 @@ fn tell(
     }
     args.output.tell(&mut json);
     let mut rows = told.rows();
+    if result.jitter_m > 0.0 {
+        rows.push(("moved", format!("faces of the second by {:.1e} m", result.jitter_m)));
+    }
     rows.push(("seconds", format!("read {secs_read:.4}, combine {secs:.4}")));
     out.result(&json, &listed(&rows))
 }
