@@ -5,10 +5,12 @@
 //! | `label.rs` | what a face is: obstacle or frontier; where it came from |
 //! | `polyhedron.rs` | vertices, faces, labels, origins; checked when made |
 //! | `measure.rs` | volume, area by label, bounds |
+//! | `double.rs` | numbers of twice the digits, for volumes that cancel |
 //! | `shapes.rs` | boxes and tetrahedra |
 //! | `facet.rs` | plane polygons, with holes, cut into triangles |
 //! | `weld.rs` | vertices at one place made one |
 
+mod double;
 mod facet;
 mod label;
 mod measure;

@@ -1,5 +1,6 @@
 //! The tetrahedra of a polyhedron.
 
+use crate::predicates::orient3;
 use crate::{Label, Point3};
 
 /// One face of the input, as a face of a tetrahedron.
@@ -44,14 +45,19 @@ impl Tetrahedra {
         self.boundary.iter().filter(has_inside).count()
     }
 
-    /// The volume of all tetrahedra, cubic metres.
+    /// The volume of all tetrahedra, cubic metres: all are positive, and each is right to rounding however flat
+    /// it is.
     pub fn volume_m3(&self) -> f64 {
-        self.tetrahedra
-            .iter()
-            .map(|tet| {
-                let [a, b, c, d] = tet.map(|v| &self.vertices[v as usize]);
-                (b - a).cross(&(c - a)).dot(&(d - a)) / 6.0
-            })
-            .sum()
+        let six = |tet: &[u32; 4]| {
+            let [a, b, c, d] = tet.map(|v| &self.vertices[v as usize]);
+            orient3(a, b, c, d)
+        };
+        self.tetrahedra.iter().map(six).sum::<f64>() / 6.0
+    }
+
+    /// How many faces of the input have no space inside on either side: they hang out of an enclosed space, or
+    /// lie between two that are outside.
+    pub fn faces_outside(&self) -> usize {
+        self.boundary.len() - self.preserved_faces()
     }
 }
