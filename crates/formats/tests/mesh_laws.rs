@@ -171,3 +171,33 @@ fn tetrahedra_are_written_with_their_labels() {
         "{medit}"
     );
 }
+
+/// A mesh without faces is one that the file says it is: by counts of 0, or by its end.
+#[test]
+fn a_file_that_says_nothing_is_no_empty_mesh() {
+    for (bytes, extension) in [
+        (&b""[..], "obj"),
+        (b"hello world\nthis is no mesh\n", "obj"),
+        (b"# a comment\n", "obj"),
+        (b"", "off"),
+        (b"OFF\n", "off"),
+        (b"", "stl"),
+        (b"solid\n", "stl"),
+        (b"", "ply"),
+        (b"ply\nformat ascii 1.0\n", "ply"),
+    ] {
+        let told = read(bytes, Some(extension), None);
+        assert!(told.is_err(), "{extension}: {}", String::from_utf8_lossy(bytes));
+    }
+    let empty = Polyhedron::empty();
+    for (bytes, extension) in [
+        (write_obj(&empty), "obj"),
+        (write_off(&empty), "off"),
+        (write_stl(&empty), "stl"),
+        (write_ply(&empty), "ply"),
+        (b"solid nothing\nendsolid nothing\n".to_vec(), "stl"),
+    ] {
+        let file = read(&bytes, Some(extension), None).expect(extension);
+        assert!(file.mesh.is_empty(), "{extension}");
+    }
+}

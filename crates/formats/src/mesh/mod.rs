@@ -13,6 +13,9 @@
 //! [`MeshFile::facet_of`] tells from which polygon of the file a triangle is. What the file does not
 //! label is obstacle. A polygon that names a vertex twice in a row loses one of them, and is left out
 //! when fewer than three are left; how many were is told.
+//!
+//! A mesh without faces is one whose file says so: by counts of 0 (PLY, OFF, STL in bytes), by `endsolid` (STL in
+//! text), by lines of an OBJ none of which is a face. A file that says nothing, or nothing known, is refused.
 
 mod build;
 mod obj;

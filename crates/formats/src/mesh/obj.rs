@@ -11,6 +11,11 @@ use crate::FormatError;
 use crate::error::{Position, quote};
 use crate::lexer::Lexer;
 
+/// Words that lines start with. A file with none of them is no OBJ; one with an `o` alone is an empty mesh.
+const KNOWN: [&[u8]; 13] = [
+    b"v", b"vt", b"vn", b"vp", b"f", b"l", b"p", b"o", b"g", b"s", b"usemtl", b"mtllib", b"cstype",
+];
+
 /// A polygon whose corners may be read before the vertices that they name.
 struct Waiting {
     corners: Vec<(i64, Position)>,
@@ -26,9 +31,12 @@ pub(super) fn read(bytes: &[u8]) -> Result<MeshFile, FormatError> {
     let mut builder = Builder::default();
     let mut waiting: Vec<Waiting> = Vec::new();
     let (mut label, mut labelled) = (Label::Obstacle, false);
+    let mut known = false;
     while lexer.next_line() {
         let at = lexer.position_of(lexer.mark());
-        match lexer.word() {
+        let word = lexer.word();
+        known |= KNOWN.contains(&word);
+        match word {
             b"v" => {
                 let xyz = lexer.floats::<3>("x, y, z")?;
                 builder.vertex(xyz, || at)?;
@@ -49,6 +57,15 @@ pub(super) fn read(bytes: &[u8]) -> Result<MeshFile, FormatError> {
             // Normals, textures, groups, lines and whatever else: not the surface.
             _ => {}
         }
+    }
+    if !known {
+        let at = lexer.position_of(lexer.mark());
+        let found = "the end of the file and no line of an OBJ";
+        return Err(FormatError::unexpected(
+            at,
+            found,
+            "`v`, `f`, `o`, `g` or another of its words",
+        ));
     }
     let mut resolved = Vec::new();
     for Waiting { corners, before, label, at } in waiting {
@@ -84,9 +101,13 @@ fn corner(lexer: &mut Lexer<'_>) -> Result<(i64, Position), FormatError> {
     }
 }
 
-/// Writes text, faces in order, with a material where the label changes.
+/// Writes text, faces in order, with a material where the label changes; a mesh without vertices as an object
+/// without any.
 pub fn write(mesh: &Polyhedron) -> Vec<u8> {
     let mut out = Vec::with_capacity(64 * (mesh.vertices().len() + mesh.faces().len()));
+    if mesh.vertices().is_empty() {
+        out.extend(b"o empty\n");
+    }
     for vertex in mesh.vertices() {
         out.extend(b"v ");
         push_point(&mut out, vertex);

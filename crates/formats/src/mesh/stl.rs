@@ -64,6 +64,7 @@ fn read_text(bytes: &[u8]) -> Result<MeshFile, FormatError> {
     let mut lexer = Lexer::new(bytes);
     let mut builder = Builder::default();
     let mut open: Vec<u32> = Vec::new();
+    let mut ended = false;
     while lexer.next_line() {
         let at = lexer.position_of(lexer.mark());
         match lexer.word() {
@@ -80,7 +81,8 @@ fn read_text(bytes: &[u8]) -> Result<MeshFile, FormatError> {
                 builder.polygon(&open, Label::Obstacle, || at)?;
                 open.clear();
             }
-            b"solid" | b"endsolid" | b"facet" | b"outer" | b"endfacet" => {}
+            b"endsolid" => ended = true,
+            b"solid" | b"facet" | b"outer" | b"endfacet" => {}
             other => {
                 let found = quote(&String::from_utf8_lossy(other));
                 return Err(FormatError::unexpected(at, found, "a line of an STL text"));
@@ -90,6 +92,10 @@ fn read_text(bytes: &[u8]) -> Result<MeshFile, FormatError> {
     let end = lexer.position_of(lexer.mark());
     if !open.is_empty() {
         return Err(FormatError::unexpected(end, "the end of the file", "`endloop`"));
+    }
+    // No facet is a mesh only where the file says that this was all.
+    if builder.vertices.is_empty() && !ended {
+        return Err(FormatError::unexpected(end, "the end of the file", "`facet` or `endsolid`"));
     }
     builder.finish(MeshFormat::Stl, false, end)
 }
