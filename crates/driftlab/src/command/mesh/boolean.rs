@@ -45,9 +45,7 @@ pub(super) fn boolean(args: &BooleanArgs, out: &Out) -> Result<(), Failure> {
         Some(recording) => {
             boolean_told(&ManifoldKernel, a_mesh, b_mesh, operation, &options, recording)
         }
-        None => {
-            boolean_told(&ManifoldKernel, a_mesh, b_mesh, operation, &options, &mut probe::Off)
-        }
+        None => boolean_told(&ManifoldKernel, a_mesh, b_mesh, operation, &options, &mut probe::Off),
     };
     let secs = start.elapsed().as_secs_f64();
     let result = combined.map_err(|error| refused(&error, args))?;

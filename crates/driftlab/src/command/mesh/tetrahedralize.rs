@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use anyhow::anyhow;
-use formats::mesh::{TetrahedraFile, write_medit, write_vtk};
+use formats::mesh::{MeshFormat, TetrahedraFile, write_medit, write_vtk};
 use instrument::{SolidOptions, TetrahedraRecording};
 use probe::Probe;
 use serde_json::json;
@@ -24,6 +24,13 @@ pub(super) fn tetrahedralize(args: &TetrahedralizeArgs, out: &Out) -> Result<(),
         args.output.as_deref().map(|path| Target::new(path, recording.force)).transpose()?;
     recording.check([args.file.as_path()].into_iter().chain(args.output.as_deref()))?;
     let read = input::mesh(&args.file, args.input.weld, out)?;
+    let is_complex = matches!(read.file.format, MeshFormat::Plc(_));
+    if read.mesh.is_empty() && !is_complex {
+        return Err(Failure::Input(anyhow!(
+            "{}: found no faces, expected a closed mesh (points alone are read from a .node file)",
+            args.file.display()
+        )));
+    }
     let holes = &read.file.hole_points;
     let inside = if args.enclosed || !holes.is_empty() {
         Inside::Enclosed(holes.clone())
@@ -49,6 +56,7 @@ pub(super) fn tetrahedralize(args: &TetrahedralizeArgs, out: &Out) -> Result<(),
         "vertices": read.mesh.vertices().len(),
         "input_faces": read.mesh.faces().len(),
         "preserved_faces": found.preserved_faces(),
+        "faces_outside": found.faces_outside(),
         "tetrahedra": found.tetrahedra.len(),
         "steiner_points": found.steiner_points,
         "volume_m3": found.volume_m3(),
@@ -66,12 +74,21 @@ pub(super) fn tetrahedralize(args: &TetrahedralizeArgs, out: &Out) -> Result<(),
     json["recording"] = shown_path(args.recording.record.as_deref());
     let rows = [
         ("vertices", format!("{}, {} added", read.mesh.vertices().len(), found.steiner_points)),
-        ("faces", format!("{} of {} kept", found.preserved_faces(), read.mesh.faces().len())),
+        ("faces", kept(&found, read.mesh.faces().len())),
         ("tetrahedra", found.tetrahedra.len().to_string()),
         ("volume", format!("{} m3", shown(found.volume_m3()))),
         ("seconds", format!("read {:.4}, tetrahedralize {secs:.4}", read.secs)),
     ];
     out.result(&json, &listed(&rows))
+}
+
+/// How many faces were kept; in a complex some may have no space to be kept beside.
+fn kept(found: &Tetrahedra, faces: usize) -> String {
+    let outside = match found.faces_outside() {
+        0 => String::new(),
+        count => format!(", {count} with no space inside beside them"),
+    };
+    format!("{} of {faces} kept{outside}", found.preserved_faces())
 }
 
 /// The inside of a mesh; of points without faces all that they span.
