@@ -145,6 +145,49 @@ fn what_rounding_spoils_is_made_again_with_or_without_jitter() {
     assert!(again > 10, "without another try some do: {again}");
 }
 
+/// Each move leaves layers as thin as itself, between which and a face moved as far the next one could leave
+/// sheets, or faces that meet.
+#[test]
+fn chains_of_moved_booleans_keep_volume_and_area() {
+    let boxes = [
+        ([0.0, 0.0, 0.0], [4.0, 4.0, 4.0]),
+        ([2.0, 0.0, 1.0], [6.0, 4.0, 3.0]),
+        ([1.0, 0.0, 0.0], [3.0, 2.0, 4.0]),
+        ([4.0, 1.0, 1.0], [5.0, 4.0, 4.0]),
+        ([0.0, 2.0, 1.0], [6.0, 3.0, 4.0]),
+    ];
+    let steps = [Operation::Union, Operation::Difference, Operation::Union, Operation::Difference];
+    let mut layered = 0;
+    for axis in [[0.0; 3], [0.7, 0.0, 0.5], [0.1, -1.1, 2.3], [-0.4, 0.2, 1.3]] {
+        for shift in 0..boxes.len() {
+            let order: Vec<Polyhedron> = (0..boxes.len())
+                .map(|i| boxes[(i + shift) % boxes.len()])
+                .map(|(low, high)| cuboid(low, high, Label::Obstacle))
+                .collect();
+            let mut exact = order[0].clone();
+            let mut moved = turned(&exact, axis);
+            for (step, (operation, next)) in steps.iter().zip(&order[1..]).enumerate() {
+                exact = boolean(&exact, next, *operation, &Options::default()).expect("boxes");
+                let seed = step as u64;
+                let options = Options { jitter_m: JITTER_M, seed, ..Options::default() };
+                let (kernel, next) = (ManifoldKernel, turned(next, axis));
+                let told = boolean_told(&kernel, &moved, &next, *operation, &options, &mut Off);
+                let told = told.expect("boxes");
+                layered += usize::from(told.jitter_m > JITTER_M);
+                moved = told.mesh;
+                let what = format!("{axis:?}, {shift}, {step}");
+                assert_valid(&moved, &what);
+                let off = (moved.volume_m3() - exact.volume_m3()).abs();
+                assert!(off < 2e-5, "{what}: volume off by {off}");
+                let area = |mesh: &Polyhedron| mesh.area_by_label().total_m2();
+                let off = (area(&moved) - area(&exact)).abs();
+                assert!(off < 2e-5, "{what}: area off by {off}");
+            }
+        }
+    }
+    assert!(layered > 0, "none was moved past layers");
+}
+
 #[test]
 fn what_looks_the_other_way_is_no_obstacle() {
     let frontier = cuboid([0.0; 3], [1.0; 3], Label::Frontier);

@@ -1,16 +1,18 @@
 //! Between steps 2 and 3: whether operands are in general position.
 
+use std::ops::ControlFlow;
+
 use super::coincide::PARALLEL;
 use crate::bvh::Aabb;
 use crate::predicates::{in_triangle, orient3};
 use crate::query::distance_to_triangle;
-use crate::{Point3, Polyhedron};
+use crate::{Point3, Polyhedron, Vector3};
 
 /// Sets of faces so small that each is held against each.
 const FEW_PAIRS: usize = 128;
 
 /// So much of the largest coordinate is what rounding leaves of a contact: a turn, then a boolean.
-pub(super) const ROUNDING: f64 = 1024.0 * f64::EPSILON;
+const ROUNDING: f64 = 1024.0 * f64::EPSILON;
 
 /// How the surfaces of two operands lie to each other.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
@@ -26,16 +28,58 @@ pub(super) enum Contacts {
 
 /// How the surfaces of two meshes lie to each other; faces in planes that are alike within `eps_m` are in contact
 /// where they are near each other.
-///
-/// Faces are parted by halves; of each pair of sets only what touches the box of
-/// the other stays, so that soon only faces along the curve are left. O(n log n) for n faces where
-/// surfaces meet along curves.
 pub(super) fn contacts(a: &Polyhedron, b: &Polyhedron, eps_m: f64) -> Contacts {
-    let reach_m = |mesh: &Polyhedron| {
-        mesh.bounds().map_or(0.0, |(low, high)| low.coords.amax().max(high.coords.amax()))
-    };
-    let rounding_m = ROUNDING * reach_m(a).max(reach_m(b));
+    let rounding_m = rounding_m([a, b]);
     let mut worst = Contacts::None;
+    let _ = each_near(a, b, eps_m, |one, other| {
+        worst = worst.max(meeting(one, other, eps_m, rounding_m));
+        if worst == Contacts::Rounded { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    });
+    worst
+}
+
+/// Whether faces of two meshes are in planes that are alike within `eps_m`, and farther apart than rounding:
+/// one mesh has layers that an earlier move left.
+pub(super) fn are_layered(a: &Polyhedron, b: &Polyhedron, eps_m: f64) -> bool {
+    let rounding_m = rounding_m([a, b]);
+    each_near(a, b, eps_m, |one, other| {
+        let Some([n, m]) = normals([one, other]) else { return ControlFlow::Continue(()) };
+        let heights = other.map(|p| (p - one[0]).dot(&n).abs());
+        let most = heights.into_iter().fold(0.0, f64::max);
+        if n.dot(&m).abs() > 1.0 - PARALLEL && most > rounding_m && most <= eps_m {
+            return ControlFlow::Break(());
+        }
+        ControlFlow::Continue(())
+    })
+    .is_break()
+}
+
+/// What is rounding at the largest coordinate of some meshes, metres.
+pub(super) fn rounding_m(meshes: [&Polyhedron; 2]) -> f64 {
+    let bounds = meshes.into_iter().filter_map(Polyhedron::bounds);
+    let reach = bounds.map(|(low, high)| low.coords.amax().max(high.coords.amax()));
+    ROUNDING * reach.fold(0.0, f64::max)
+}
+
+type Corners<'a> = [&'a Point3; 3];
+
+/// Directions that two faces look in; `None` where one is flat.
+fn normals(faces: [Corners<'_>; 2]) -> Option<[Vector3; 2]> {
+    let [n, m] = faces.map(|[p, q, r]| (q - p).cross(&(r - p)).try_normalize(0.0));
+    Some([n?, m?])
+}
+
+/// Calls `found` with the faces of two meshes whose boxes are no farther apart than about `eps_m`; stops where it
+/// breaks, and tells.
+///
+/// Faces are parted by halves; of each pair of sets only what touches the box of the other stays, so that soon
+/// only faces along the curve are left. O(n log n) for n faces where surfaces meet along curves.
+fn each_near<'a>(
+    a: &'a Polyhedron,
+    b: &'a Polyhedron,
+    eps_m: f64,
+    mut found: impl FnMut(Corners<'a>, Corners<'a>) -> ControlFlow<()>,
+) -> ControlFlow<()> {
     let boxes = |mesh: &Polyhedron| -> Vec<Aabb> {
         (0..mesh.faces().len()).map(|face| Aabb::around(mesh.corners(face)).grown(eps_m)).collect()
     };
@@ -54,10 +98,7 @@ pub(super) fn contacts(a: &Polyhedron, b: &Polyhedron, eps_m: f64) -> Contacts {
                 for &j in &some_b {
                     let (i, j) = (i as usize, j as usize);
                     if of_a[i].touches(&of_b[j]) {
-                        worst = worst.max(meeting(a.corners(i), b.corners(j), eps_m, rounding_m));
-                        if worst == Contacts::Rounded {
-                            return worst;
-                        }
+                        found(a.corners(i), b.corners(j))?;
                     }
                 }
             }
@@ -69,7 +110,7 @@ pub(super) fn contacts(a: &Polyhedron, b: &Polyhedron, eps_m: f64) -> Contacts {
             waiting.extend([(some_a.clone(), low), (some_a, high)]);
         }
     }
-    worst
+    ControlFlow::Continue(())
 }
 
 /// Faces parted along the axis on which their middles are spread most: at the middle, or by
@@ -91,9 +132,8 @@ fn halves(mut faces: Vec<u32>, boxes: &[Aabb]) -> [Vec<u32>; 2] {
     [below, above]
 }
 
-fn meeting(a: [&Point3; 3], b: [&Point3; 3], eps_m: f64, rounding_m: f64) -> Contacts {
-    let [n, m] = [a, b].map(|[p, q, r]| (q - p).cross(&(r - p)).try_normalize(0.0));
-    let (Some(n), Some(m)) = (n, m) else { return Contacts::Sharp };
+fn meeting(a: Corners<'_>, b: Corners<'_>, eps_m: f64, rounding_m: f64) -> Contacts {
+    let Some([n, m]) = normals([a, b]) else { return Contacts::Sharp };
     let above_a = b.map(|p| (p - a[0]).dot(&n));
     let above_b = a.map(|p| (p - b[0]).dot(&m));
     let mut found = Contacts::None;

@@ -5,7 +5,7 @@ use probe::{Off, Probe};
 use super::attempt::{apart, attempt, failed};
 use super::changed::{changed, thin, unmatched};
 use super::combine::{labelled, refused, settled};
-use super::contacts::{Contacts, ROUNDING, contacts};
+use super::contacts::{Contacts, are_layered, contacts, rounding_m};
 use super::jitter::{JITTER_M, grown, mixed};
 use super::leaves::tidied;
 use super::tags::Tags;
@@ -23,6 +23,9 @@ const ROUNDINGS: [f64; 7] = [4.0, 4.0, 16.0, 64.0, 256.0, 1024.0, 4096.0];
 
 /// Faces coincide within so many times the jitter at least.
 const COINCIDENT_JITTERS: f64 = 10.0;
+
+/// So many times as far a move passes the layers that others left.
+const PAST_LAYERS: f64 = 8.0;
 
 /// So many times the jitter parts by that what is left of two operands that touch is moved to meet.
 const JOINING: f64 = 4.0;
@@ -112,6 +115,8 @@ impl<'a, K: Kernel> Trials<'a, K> {
             };
             let moved = self.trial(jitter_m, seed, true)?;
             if moved.sound {
+                let (moved, more) = self.past_layers(moved, seed)?;
+                again += more;
                 let Some(plain) = first else { return Ok(Taken { trial: moved, again }) };
                 let area_m2 = self.area_m2(&moved)?;
                 if plain.sound && self.agree(&plain, &moved, area_m2) {
@@ -139,15 +144,31 @@ impl<'a, K: Kernel> Trials<'a, K> {
         Ok(Taken { trial, again })
     }
 
+    /// The trial, or a sound one with the second operand moved past the layers that earlier moves left, where
+    /// that has less area: between such a layer and a face that was moved as far a sheet may be left. And how
+    /// many trials that took.
+    fn past_layers(&self, moved: Trial, seed: u64) -> Result<(Trial, usize), SolidError> {
+        let [a, b] = self.operands;
+        let past_m = PAST_LAYERS * moved.jitter_m;
+        if !are_layered(a, b, past_m) {
+            return Ok((moved, 0));
+        }
+        let other = self.trial(past_m, seed, true)?;
+        let (area_m2, less_m2) =
+            (moved.mesh.area_by_label().total_m2(), other.mesh.area_by_label().total_m2());
+        let off_m3 = (moved.mesh.volume_m3() - other.mesh.volume_m3()).abs();
+        let better = other.sound
+            && less_m2 < area_m2 - SAME_AREA * self.scale_m2()
+            && off_m3 <= SAME_VOLUME * past_m * self.scale_m2();
+        Ok((if better { other } else { moved }, 1))
+    }
+
     /// How far the second operand is moved, in the order tried, metres.
     fn jitters(&self) -> Vec<f64> {
         if self.options.jitter_m > 0.0 {
             return TIMES.map(|times| times * self.options.jitter_m).to_vec();
         }
-        let reach_m = |mesh: &Polyhedron| {
-            mesh.bounds().map_or(0.0, |(low, high)| low.coords.amax().max(high.coords.amax()))
-        };
-        let rounding_m = ROUNDING * self.operands.map(reach_m).into_iter().fold(0.0, f64::max);
+        let rounding_m = rounding_m(self.operands);
         let least_m = 4.0 * rounding_m;
         let mut all =
             ROUNDINGS.map(|times| (times * rounding_m).min(JITTER_M.max(least_m))).to_vec();
