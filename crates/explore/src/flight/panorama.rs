@@ -13,6 +13,10 @@ pub(super) fn yaw(angle_rad: f64) -> Se3 {
 /// Distances that differ by less are the same, metres.
 const SAME_M: f64 = 1e-4;
 
+/// Images are kept with at most so many columns: of larger ones several pixels become one. 99 columns by 87 rows
+/// hold 34 KiB; an image of 640 by 480 would hold 1.2 MB and tell the policy nothing more.
+const MOST_COLUMNS: usize = 128;
+
 /// The images of one vertex.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Panorama {
@@ -22,6 +26,8 @@ pub(super) struct Panorama {
 }
 
 /// One image, its depths replaced by what is free for certain between the pixels.
+///
+/// What is a pixel here stands for a square of the camera's where that has more than [`MOST_COLUMNS`].
 #[derive(Clone, Debug)]
 struct Seen {
     vertex_from_camera: Se3,
@@ -47,19 +53,26 @@ impl Panorama {
     /// Adds an image. Missing readings count as not seen.
     pub(super) fn add(&mut self, yaw_rad: f64, vertex_from_camera: Se3, image: &DepthImage) {
         self.first_yaw_rad.get_or_insert(yaw_rad);
-        let (columns, rows) = (image.columns, image.rows());
         let free = |depth_m: f32| if depth_m.is_finite() && depth_m > 0.0 { depth_m } else { 0.0 };
-        let mut free_m = Vec::with_capacity(columns.saturating_sub(1) * rows.saturating_sub(1));
-        for row in 0..rows.saturating_sub(1) {
-            for column in 0..columns.saturating_sub(1) {
-                let at = row * columns + column;
-                let corners = [at, at + 1, at + columns, at + columns + 1];
-                free_m.push(
-                    corners.map(|at| free(image.depths_m[at])).into_iter().fold(f32::MAX, f32::min),
-                );
-            }
+        let side = image.columns.div_ceil(MOST_COLUMNS).max(1);
+        // What is left over of a square at the right and at the bottom is not seen.
+        let squares = image.columns.saturating_sub(1) / side;
+        let squares_down = image.rows().saturating_sub(1) / side;
+        let mut free_m = Vec::with_capacity(squares * squares_down);
+        for (row, column) in (0..squares_down).flat_map(|row| (0..squares).map(move |c| (row, c))) {
+            let rows = row * side..=(row + 1) * side;
+            let least_m = rows.fold(f32::MAX, |least_m, row| {
+                let from = row * image.columns + column * side;
+                let depths = &image.depths_m[from..=from + side];
+                depths.iter().map(|&depth_m| free(depth_m)).fold(least_m, f32::min)
+            });
+            free_m.push(least_m);
         }
-        let camera = image.camera;
+        // The corners of the squares are the pixels of this camera.
+        let Camera { fx, fy, cx, cy } = image.camera;
+        let by = side as f64;
+        let camera = Camera::new(fx / by, fy / by, cx / by, cy / by);
+        let (columns, rows) = (squares + 1, squares_down + 1);
         self.looks.push(Seen { vertex_from_camera, camera, columns, rows, free_m });
     }
 
@@ -219,6 +232,23 @@ mod tests {
         let mut seen = Panorama::default();
         seen.add(0.0, Se3::new(Vector3::zeros(), upright), &image);
         seen
+    }
+
+    #[test]
+    fn a_large_image_is_kept_as_a_small_one() {
+        let small = wall();
+        let seen = &small.looks[0];
+        let (camera, by) = (seen.camera, 8.0);
+        let large = Camera::new(by * camera.fx, by * camera.fy, by * camera.cx, by * camera.cy);
+        let image = DepthImage::new(800, large, vec![1.0; 800 * 640]);
+        let mut kept = Panorama::default();
+        kept.add(0.0, seen.vertex_from_camera, &image);
+        assert!(kept.looks[0].free_m.len() < 2 * seen.free_m.len());
+        for to in [[0.7, 0.0, 0.0], [0.8, 0.0, 0.0], [0.8, 0.4, 0.0], [0.9, 0.3, -0.3]] {
+            let to = Point3::from(to);
+            assert_eq!(kept.keeps_clear(&to, 0.25), small.keeps_clear(&to, 0.25), "{to}");
+            assert_eq!(kept.is_free(&to, 0.15), small.is_free(&to, 0.15), "{to}");
+        }
     }
 
     #[test]
