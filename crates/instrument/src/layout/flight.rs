@@ -36,8 +36,10 @@ fn map_row(
     let dark = night();
     let (low, high) = options.bounds_in_world;
     let whole = eye_over(&low, &high);
-    let around = eye_over(&Point3::new(-5.0, -5.0, -1.4), &Point3::new(5.0, 5.0, 1.4));
-    let near = eye_over(&Point3::new(-3.0, -3.0, -1.4), &Point3::new(3.0, 3.0, 1.4));
+    // From a corner one sees as far as the place is wide, and the robot may look any way.
+    let reach_m = (0.8 * (high - low).norm()).clamp(3.0, 7.0);
+    let corner = Point3::new(reach_m, reach_m, 1.4);
+    let around = eye_over(&-corner, &corner);
     let is_around = FlightOptions::is_around_robot(map);
     let space = |layout: &mut Layout<'_>, name: &str, eye: &EyeControls3D, rules: &[&str]| {
         layout.view(&View {
@@ -64,7 +66,7 @@ fn map_row(
     let look = space(
         layout,
         "the last view",
-        if is_around { &near } else { &whole },
+        if is_around { &around } else { &whole },
         &["+ $map/belief/look/**", "+ $map/belief/robot/**", "+ $map/belief/planner/**"],
     )?;
     let graph_title =
