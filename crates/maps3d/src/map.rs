@@ -239,7 +239,7 @@ pub trait Map3d {
 
     /// Frontier of a vertex is about to be given up: a map that holds it against views near in the graph
     /// only holds it against farther ones now, once. Others do nothing.
-    fn compare_farther(&mut self, _vertex: VertexId, _probe: &mut dyn Map3dProbe) {}
+    fn compare_farther(&mut self, _vertex: VertexId, _is_last: bool, _probe: &mut dyn Map3dProbe) {}
 
     /// Frontier within `radius_m` of `place_in_body` does not count from now on.
     ///

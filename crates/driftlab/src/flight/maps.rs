@@ -169,8 +169,8 @@ impl Map3d for Side {
         self.timed(|map| map.clearance(hovering, to_in_body, leaving_m))
     }
 
-    fn compare_farther(&mut self, vertex: VertexId, probe: &mut dyn Map3dProbe) {
-        self.timed(|map| map.compare_farther(vertex, probe));
+    fn compare_farther(&mut self, vertex: VertexId, is_last: bool, probe: &mut dyn Map3dProbe) {
+        self.timed(|map| map.compare_farther(vertex, is_last, probe));
     }
 
     fn give_up(

@@ -139,9 +139,9 @@ impl FlightExplorer {
         probe: &mut dyn FlightProbe,
     ) -> bool {
         let (same_m, tries) = (self.params.same_place_m, self.params.tries);
-        if self.later.is_last() && self.held_farther.insert(owner) {
-            // What is about to be given up is held against farther views, also where the robot hovers.
-            self.maps[0].compare_farther(owner, &mut *probe);
+        if self.later.is_late() && self.held_farther.insert((self.later.round(), owner)) {
+            // Before anything is flown for what was put off, and before it is given up; also where the robot hovers.
+            self.maps[0].compare_farther(owner, self.later.is_last(), &mut *probe);
             self.ask_frontiers(owner);
         }
         let targets: Vec<Target> = self.patches.iter().flat_map(targets_of).collect();

@@ -68,8 +68,8 @@ pub struct FlightExplorer {
     /// By vertex and place, what a straight flight keeps from everything.
     pub(super) margins_known: BTreeMap<(VertexId, [u64; 3]), u8>,
     pub(super) later: Later,
-    /// Vertices whose frontier was held against farther views in the last round.
-    pub(super) held_farther: BTreeSet<VertexId>,
+    /// Vertices whose frontier was held against farther views, by round.
+    pub(super) held_farther: BTreeSet<(u32, VertexId)>,
 }
 
 impl FlightExplorer {

@@ -42,6 +42,11 @@ impl Later {
         self.round += 1;
     }
 
+    /// The number of the round.
+    pub(super) fn round(&self) -> u32 {
+        self.round
+    }
+
     /// Whether this is not the first round.
     pub(super) fn is_late(&self) -> bool {
         self.round > 0

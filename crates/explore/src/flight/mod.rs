@@ -24,8 +24,9 @@
 //!    margin from it or gets no nearer to it. Noise may have pushed it against an edge, and then it touches
 //!    that edge when it climbs however little.
 //! 3. **Put off** (`later.rs`). Frontier that no place has in view now waits: often looks from elsewhere close
-//!    it, or lead to a place that has it in view. When nothing else is left a new round begins, in which more
-//!    vertices are tried, those nearest to the frontier first; and where it cannot be looked at from any of
+//!    it, or lead to a place that has it in view. When nothing else is left a new round begins. What comes again is
+//!    held against all views that are well placed to it, before anything is flown for it: along the way with the least
+//!    odometry, not along the shortest. Then more vertices are tried, those nearest to the frontier first; and where it cannot be looked at from any of
 //!    them, it is *approached*: the robot flies to where it is nearer to it, along a straight way that it saw
 //!    to be free, and goes on from there. Where that is not possible either, places are *believed* to have it in
 //!    view: the line of sight is free by the views near in the graph, whoever took them, and the place may be a
@@ -35,7 +36,7 @@
 //! 4. **Go elsewhere** (`act.rs`). With no frontier left here, the map names the way along the graph to the
 //!    nearest vertex with some, and the robot repeats it.
 //! 5. **Give up.** A round in which nobody looked at anything is followed by the last one. What is left is held
-//!    against what was seen farther along the graph. Frontier that still counts is given up: as `Unreachable`
+//!    against those views once more, doubtful or not. Frontier that still counts is given up: as `Unreachable`
 //!    where none of the places above was ever found for it; as `Hidden` where it was looked at and something
 //!    solid stands before it, by that look or by at least three views and none that says otherwise; else as
 //!    `NothingNew`. The first two are told apart from what is ignored. All hold for the place relative to its

@@ -56,6 +56,11 @@ impl Book {
         }
     }
 
+    /// Whether an edge that was learned is a place edge.
+    pub(super) fn is_place(&self, edge: EdgeId) -> bool {
+        self.is_place.get(edge).copied().unwrap_or(false)
+    }
+
     /// Remembers a path from the vertex whose frontier is closed to that of the view that closes it.
     pub(super) fn remember(&mut self, edges: Vec<EdgeId>) -> PathId {
         self.paths.push(edges.into())

@@ -139,7 +139,7 @@ impl RelativeMap {
             for &against in numbers.iter().filter(|&&other| other != view) {
                 let other = &self.views[against as usize];
                 let camera_from_against = vertex_from_camera.inverse_mul(&other.vertex_from_camera);
-                let pair = Pair { view, against, camera_from_against };
+                let pair = Pair { view, against, camera_from_against, odometry_m: 0.0 };
                 work.close(&bare, &other.volume, &pair, Cause::Inside, &self.params, |_| true);
                 for (face, after) in work.changed.drain(..) {
                     bare.open[face] = after;

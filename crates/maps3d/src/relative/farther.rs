@@ -1,4 +1,5 @@
-//! Frontier that would be given up is held against views farther along the graph first.
+//! Frontier that was put off, or would be given up, is held against views that are placed along the ways with the least
+//! odometry.
 
 use nalgebra::Point3;
 use posegraph::Scope;
@@ -8,8 +9,12 @@ use super::RelativeMap;
 use super::book::Cause;
 use super::events::ConsolidationEvent;
 use super::insert::PlacedView;
+use super::pair::USUAL;
 use super::volume::Shape;
 use crate::{Hovering, Map3dProbe, Sights};
+
+/// How much more odometry there may be before frontier is given up, as a multiple of the consolidation radius.
+const FARTHER: f64 = 2.0;
 
 /// What a metre of a place edge counts as here: placement goes where there is the least odometry.
 const PLACE_WEIGHT: f64 = 0.01;
@@ -20,7 +25,7 @@ const NEAR_SHARE: f64 = 1e-3;
 /// Within so many pixels of the border of its image a view does not say what it saw.
 const BORDER_PX: f64 = 1.0;
 
-/// Why frontier is closed then.
+/// Why frontier is closed that would be given up.
 const CAUSES: [Cause; 3] = [Cause::Inside, Cause::Wall, Cause::Behind];
 
 impl RelativeMap {
@@ -30,15 +35,24 @@ impl RelativeMap {
     /// A short way may drift more than a long one: only its odometry does, and place edges are many where the robot
     /// was often. What is seen at the far end of an image is off by metres after one hop. And what was seen from far
     /// round, through a gap that the robot does not fit through, may lie in views that are near in space and far along
-    /// the graph. Such scopes reach far, so this comes last; those that drift least come first. And
-    /// what lies up to twice as far behind walls as is closed otherwise is closed: reduced surfaces of far views
-    /// cut through pillars and furniture, where nobody can ever look. Whether views contradict each other is not
-    /// asked any more: what is left was looked at from wherever it can be, or from nowhere.
-    pub(super) fn compare_with_farther(&mut self, vertex: VertexId, probe: &mut dyn Map3dProbe) {
+    /// the graph. Such scopes reach far, so this is not done for every look; those that drift least come first.
+    ///
+    /// `is_last`: what is left would be given up. Then what lies up to twice as far behind walls as is closed otherwise
+    /// is closed too: reduced surfaces of far views cut through pillars and furniture, where nobody can ever look. Whether
+    /// views contradict each other is not asked any more: what is left was looked at from wherever it can be, or from
+    /// nowhere.
+    pub(super) fn compare_with_farther(
+        &mut self,
+        vertex: VertexId,
+        is_last: bool,
+        probe: &mut dyn Map3dProbe,
+    ) {
+        let causes = if is_last { &CAUSES[..] } else { &USUAL };
         self.cover(vertex);
         let least = self.skeleton.reweighed(PLACE_WEIGHT);
         let usual = std::mem::replace(&mut self.skeleton, least);
-        let radius_m = self.params.consolidation_radius_m;
+        let share = if is_last { FARTHER } else { 1.0 };
+        let radius_m = share * self.params.consolidation_radius_m;
         self.scratch.place(&self.skeleton, vertex, radius_m, &mut self.scope);
         // Nobody else asks for a scope of this radius.
         self.scope_is_fresh = false;
@@ -53,7 +67,7 @@ impl RelativeMap {
         for of in &own {
             for against in placed.iter().filter(|against| against.view != of.view) {
                 if self.views[of.view as usize].counts() {
-                    self.compare_rows(of, against, &CAUSES, probe);
+                    self.compare_rows(of, against, causes, probe);
                 }
             }
         }
@@ -66,7 +80,7 @@ impl RelativeMap {
         self.cover(hovering.vertex);
         let least = self.skeleton.reweighed(PLACE_WEIGHT);
         let mut scope = Scope::default();
-        let radius_m = self.params.consolidation_radius_m;
+        let radius_m = FARTHER * self.params.consolidation_radius_m;
         self.scratch.place(&least, hovering.vertex, radius_m, &mut scope);
         let in_root = hovering.vertex_from_body.transform(point_in_body);
         let mut sights = Sights::default();

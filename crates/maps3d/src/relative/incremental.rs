@@ -31,6 +31,7 @@ impl RelativeMap {
             self.book.learn(id, edge.kind);
             self.cover(edge.a.max(edge.b));
         }
+        self.hear_of_drift(graph, root, edges);
         self.take_scope(root, &mut probe::Off);
         let before = std::mem::take(&mut self.scope);
         for &id in edges {

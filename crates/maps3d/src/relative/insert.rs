@@ -107,7 +107,11 @@ impl RelativeMap {
         probe: &mut dyn Map3dProbe,
     ) {
         let camera_from_against = of.root_from_camera.inverse_mul(&against.root_from_camera);
-        let pair = Pair { view: of.view, against: against.view, camera_from_against };
+        // By way of the root, so where neither is there it may be less.
+        let of_row =
+            |row: u32| self.scope.placed().get(row as usize).map_or(0.0, |at| at.odometry_m);
+        let odometry_m = of_row(of.row) + of_row(against.row);
+        let pair = Pair { view: of.view, against: against.view, camera_from_against, odometry_m };
         let scope = std::mem::take(&mut self.scope);
         let skeleton =
             std::mem::replace(&mut self.skeleton, super::map::empty_skeleton(&self.params));

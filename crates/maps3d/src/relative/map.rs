@@ -7,6 +7,7 @@ use probe::{EdgeId, IdVec, Probe, VertexId};
 
 use super::book::Book;
 use super::clearance::Shell;
+use super::drift::Drift;
 use super::events::ConsolidationEvent;
 use super::pair::Work;
 use super::{RelativeParams, ViewState};
@@ -25,6 +26,7 @@ pub struct RelativeMap {
     pub(super) views_of: IdVec<VertexId, Vec<u32>>,
     pub(super) skeleton: Skeleton<Se3>,
     pub(super) book: Book,
+    pub(super) drift: Drift,
     /// The scope taken last; valid while its root and the skeleton are what they were.
     pub(super) scope: Scope<Se3>,
     pub(super) scope_is_fresh: bool,
@@ -52,6 +54,7 @@ impl RelativeMap {
             views_of: IdVec::new(),
             skeleton,
             book: Book::default(),
+            drift: Drift::default(),
             scope: Scope::default(),
             scope_is_fresh: false,
             scratch: ScopeScratch::default(),
@@ -208,8 +211,8 @@ impl Map3d for RelativeMap {
         self.motion_clearance(hovering, to_in_body, leaving_m)
     }
 
-    fn compare_farther(&mut self, vertex: VertexId, probe: &mut dyn Map3dProbe) {
-        self.compare_with_farther(vertex, probe);
+    fn compare_farther(&mut self, vertex: VertexId, is_last: bool, probe: &mut dyn Map3dProbe) {
+        self.compare_with_farther(vertex, is_last, probe);
         self.settled(vertex, probe);
     }
 

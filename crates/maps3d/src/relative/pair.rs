@@ -8,6 +8,7 @@ use probe::{EdgeId, PathId, Probe};
 
 use super::book::{Cause, Closing, ClosingId};
 use super::doubt::Doubt;
+use super::drift::Drift;
 use super::events::ConsolidationEvent;
 use super::grid::{self, FaceGrid};
 use super::ledger::OpenPart;
@@ -39,6 +40,8 @@ pub(super) struct Pair {
     pub against: u32,
     /// The camera of `against` in the frame of that of `view`.
     pub camera_from_against: Se3,
+    /// Odometry on the way between the two, at most, metres.
+    pub odometry_m: f64,
 }
 
 /// Why frontier is closed as looks and edges come.
@@ -88,7 +91,7 @@ impl RelativeMap {
             work.close(view, &against.volume, pair, cause, &self.params, |face| counts[face]);
             // Looks of one vertex are exact to each other. What would be given up is closed by whoever can.
             if view.vertex != against.vertex && cause_may_be_doubted {
-                work.leave_doubtful(view, against, pair, &mut taken, &self.params);
+                work.leave_doubtful(view, against, pair, &mut taken, (&self.params, self.drift));
             }
             if !work.changed.is_empty() {
                 let path = *path_id.get_or_insert_with(|| self.book.remember(path()));
@@ -134,7 +137,7 @@ impl RelativeMap {
             state.closings.push((face as u16, id));
         }
         if on {
-            let Pair { view, against, camera_from_against } = *pair;
+            let Pair { view, against, camera_from_against, .. } = *pair;
             let event = ConsolidationEvent::PairCompared {
                 view,
                 against,
@@ -200,9 +203,14 @@ impl Work {
         against: &ViewState,
         pair: &Pair,
         taken: &mut bool,
-        params: &RelativeParams,
+        (params, drift): (&RelativeParams, Drift),
     ) {
-        if self.changed.is_empty() || params.contradiction_share >= 1.0 {
+        // Where drift cannot be why, what contradicts is that surfaces are reduced.
+        let corners = |face: usize| view.volume.points(view.volume.frontier()[face]);
+        let may_be_off =
+            |face: usize| drift.reach_of(pair.odometry_m, &corners(face)) >= params.contradiction_m;
+        let is_sure = !self.changed.iter().any(|(face, _)| may_be_off(*face));
+        if is_sure || params.contradiction_share >= 1.0 {
             return;
         }
         if !std::mem::replace(taken, true) {
@@ -210,9 +218,8 @@ impl Work {
             self.doubt.take(&view.volume, &against.volume, camera_from_against, params);
         }
         let doubt = &self.doubt;
-        self.changed.retain(|(face, _)| {
-            !doubt.is_about(view.volume.points(view.volume.frontier()[*face]), params)
-        });
+        self.changed
+            .retain(|(face, _)| !may_be_off(*face) || !doubt.is_about(corners(*face), params));
     }
 
     /// What is left of the open part of a face beside a volume; `None` where nothing is taken.

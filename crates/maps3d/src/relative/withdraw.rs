@@ -80,7 +80,7 @@ impl RelativeMap {
             let walked = walk(graph, state.vertex, self.book.edges(closing.path));
             let vertex_from_other = walked * other.vertex_from_camera;
             let camera_from_against = state.vertex_from_camera.inverse_mul(&vertex_from_other);
-            let pair = Pair { view, against: closing.by, camera_from_against };
+            let pair = Pair { view, against: closing.by, camera_from_against, odometry_m: 0.0 };
             let wanted = |face: usize| of_one.iter().any(|(_, f)| usize::from(*f) == face);
             work.close(state, &other.volume, &pair, closing.cause, &self.params, wanted);
             for (face, after) in work.changed.drain(..) {

@@ -78,6 +78,25 @@ proptest! {
         }
     }
 
+    /// What is weighed anew is placed as if it had been weighed so from the start.
+    #[test]
+    fn weighing_anew_is_weighing_from_the_start(
+        drawn in graphs(1..14),
+        place_weight in 0.01..1.0_f64,
+    ) {
+        let graph = drawn.graph();
+        let anew = skeleton_of(&graph, 20.0).reweighed(place_weight);
+        let skeleton = filled(Skeleton::new(20.0).weigh_places(place_weight), &graph);
+        let (mut one, mut other) = (Scope::default(), Scope::default());
+        let mut scratch = ScopeScratch::default();
+        scratch.place(&anew, VertexId(0), f64::INFINITY, &mut one);
+        scratch.place(&skeleton, VertexId(0), f64::INFINITY, &mut other);
+        prop_assert_eq!(one.placed().len(), other.placed().len());
+        for (a, b) in one.placed().iter().zip(other.placed()) {
+            prop_assert!(near(a.distance_m, b.distance_m));
+        }
+    }
+
     /// The nearest few are the head of all.
     #[test]
     fn the_nearest_few_are_the_head_of_all(
