@@ -9,6 +9,7 @@ use sensing::FlyingRobot;
 use worlds::{FlyerParams, SimFlyer, World3d};
 
 use super::maps::{Side, map_of};
+use super::stages::{Stages, peak_memory};
 use super::timed::TimedFlyer;
 use super::{FlightExperiment, FlightMetrics, FlightRow, FlightSeen, FlightTiming, FlightWatch};
 use crate::run::{
@@ -51,11 +52,12 @@ where
     let robot = SimFlyer::new(place.world.clone(), FlyerParams::from(config), config.seed)?;
     let mut witness = FlightWitness::new(robot, coverage.clone());
     let at_work = AtWork::new(kinds.len());
+    let stages: Vec<Stages> = kinds.iter().map(|_| Stages::default()).collect();
     let mut maps: Vec<Box<dyn Map3d + Send>> = Vec::new();
-    for kind in kinds {
+    for (kind, stages) in kinds.iter().zip(&stages) {
         if let Some(map) = map_of(config, kind)? {
             let index = maps.len();
-            maps.push(Box::new(Side::new(map, index, &at_work)));
+            maps.push(Box::new(Side::new(map, index, &at_work, stages)));
         }
     }
     let mut explorer = FlightExplorer::new(maps, FlightParams::from(config));
@@ -103,7 +105,7 @@ where
     for (index, (mut rider, map)) in riders.into_iter().zip(explorer.maps()).enumerate() {
         rider.costs.bytes_peak = rider.costs.bytes_peak.max(map.bytes() as u64);
         let metrics = rider.metrics(index == 0, &explorer, &report, map.as_ref(), &witness);
-        let timing = rider.costs.timing(wall_secs);
+        let timing = rider.costs.timing(&stages[index], wall_secs);
         runs.push(FlightRun { name: rider.name, metrics, timing, rows: rider.rows });
     }
     Ok(runs)
@@ -155,7 +157,7 @@ struct Costs {
 }
 
 impl Costs {
-    fn timing(&self, wall_secs: f64) -> FlightTiming {
+    fn timing(&self, stages: &Stages, wall_secs: f64) -> FlightTiming {
         FlightTiming {
             step_micros_median: quantile(&self.step_micros, 0.5),
             step_micros_p99: quantile(&self.step_micros, 0.99),
@@ -167,6 +169,8 @@ impl Costs {
             corrections: self.corrections.clone(),
             map_bytes_peak: self.bytes_peak,
             map_bytes_per_look: self.bytes_peak as f64 / self.look_micros.len().max(1) as f64,
+            stages: stages.timing(),
+            peak_rss_bytes: peak_memory(),
             wall_secs,
         }
     }

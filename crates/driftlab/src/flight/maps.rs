@@ -14,6 +14,7 @@ use posegraph::PoseGraph;
 use probe::{EdgeId, VertexId};
 use worlds::CameraParams;
 
+use super::stages::Stages;
 use crate::config::Config;
 use crate::run::{AtWork, TimedProbe};
 
@@ -64,15 +65,27 @@ pub(super) struct Side {
     inner: Box<dyn Map3d + Send>,
     index: usize,
     at_work: AtWork,
+    stages: Stages,
 }
 
 impl Side {
-    pub(super) fn new(inner: Box<dyn Map3d + Send>, index: usize, at_work: &AtWork) -> Self {
-        Self { inner, index, at_work: at_work.clone() }
+    pub(super) fn new(
+        inner: Box<dyn Map3d + Send>,
+        index: usize,
+        at_work: &AtWork,
+        stages: &Stages,
+    ) -> Self {
+        Self { inner, index, at_work: at_work.clone(), stages: stages.clone() }
     }
 
     fn timed<T>(&mut self, work: impl FnOnce(&mut dyn Map3d) -> T) -> T {
         self.at_work.timed(self.index, || work(self.inner.as_mut()))
+    }
+
+    /// As [`timed`](Self::timed), of work that is one stage.
+    fn stage<T>(&mut self, name: &'static str, work: impl FnOnce(&mut dyn Map3d) -> T) -> T {
+        let stages = self.stages.clone();
+        self.timed(|map| stages.timed(name, || work(map)))
     }
 
     /// As [`timed`](Self::timed); a correction that comes of it is noted with its own time, without
@@ -86,7 +99,8 @@ impl Side {
         let start = Instant::now();
         let at_work = self.at_work.clone();
         let mut heard = TimedProbe::new(probe, &at_work, 0);
-        self.timed(|map| work(map, &mut heard));
+        let stages = self.stages.clone();
+        self.timed(|map| stages.by_events("graph", &mut heard, |heard| work(map, heard)));
         let spent = start.elapsed().saturating_sub(heard.spent);
         if self.inner.work().corrections > before {
             self.at_work.note_correction(self.index, spent);
@@ -120,7 +134,11 @@ impl Map3d for Side {
         let start = Instant::now();
         let at_work = self.at_work.clone();
         let mut heard = TimedProbe::new(probe, &at_work, 0);
-        let taken = self.timed(|map| map.looked(look, &mut heard));
+        let stages = self.stages.clone();
+        // What is left when the view was made and united.
+        let rest = if self.inner.is_by_vertex() { "consolidate" } else { "sort" };
+        let taken =
+            self.timed(|map| stages.by_events(rest, &mut heard, |heard| map.looked(look, heard)));
         self.at_work.note_look(self.index, start.elapsed().saturating_sub(heard.spent));
         taken
     }
@@ -130,7 +148,7 @@ impl Map3d for Side {
     }
 
     fn frontiers(&mut self, hovering: &Hovering, out: &mut Vec<FrontierPatch>) {
-        self.timed(|map| map.frontiers(hovering, out));
+        self.stage("frontiers", |map| map.frontiers(hovering, out));
     }
 
     fn is_by_vertex(&self) -> bool {
@@ -147,7 +165,7 @@ impl Map3d for Side {
         clearance_m: f64,
         comes_now: &dyn Fn(VertexId) -> bool,
     ) -> Option<FlightRoute> {
-        self.timed(|map| map.route(hovering, clearance_m, comes_now))
+        self.stage("route", |map| map.route(hovering, clearance_m, comes_now))
     }
 
     fn route_with(
@@ -157,7 +175,12 @@ impl Map3d for Side {
         comes_now: &dyn Fn(VertexId) -> bool,
         probe: &mut dyn Map3dProbe,
     ) -> Option<FlightRoute> {
-        self.timed(|map| map.route_with(hovering, clearance_m, comes_now, probe))
+        let stages = self.stages.clone();
+        self.timed(|map| {
+            stages.by_events("route", probe, |probe| {
+                map.route_with(hovering, clearance_m, comes_now, probe)
+            })
+        })
     }
 
     fn clearance(
@@ -166,7 +189,7 @@ impl Map3d for Side {
         to_in_body: &Point3,
         leaving_m: f64,
     ) -> FlightClearance {
-        self.timed(|map| map.clearance(hovering, to_in_body, leaving_m))
+        self.stage("clearance", |map| map.clearance(hovering, to_in_body, leaving_m))
     }
 
     fn compare_farther(&mut self, vertex: VertexId, is_last: bool, probe: &mut dyn Map3dProbe) {
@@ -181,7 +204,9 @@ impl Map3d for Side {
         everywhere: bool,
         probe: &mut dyn Map3dProbe,
     ) {
-        self.timed(|map| map.give_up(hovering, place_in_body, radius_m, everywhere, probe));
+        self.stage("give_up", |map| {
+            map.give_up(hovering, place_in_body, radius_m, everywhere, probe)
+        });
     }
 
     fn knows(&self, hovering: &Hovering, point_in_body: &Point3) -> Known {
@@ -194,15 +219,15 @@ impl Map3d for Side {
         lines_in_body: &[[Point3; 2]],
         short_m: f64,
     ) -> Vec<bool> {
-        self.timed(|map| map.free_lines(hovering, lines_in_body, short_m))
+        self.stage("free_lines", |map| map.free_lines(hovering, lines_in_body, short_m))
     }
 
     fn meets_solid(&mut self, hovering: &Hovering, points_in_body: &[Point3]) -> bool {
-        self.timed(|map| map.meets_solid(hovering, points_in_body))
+        self.stage("meets_solid", |map| map.meets_solid(hovering, points_in_body))
     }
 
     fn sights_of(&mut self, hovering: &Hovering, point_in_body: &Point3) -> Sights {
-        self.timed(|map| map.sights_of(hovering, point_in_body))
+        self.stage("sights", |map| map.sights_of(hovering, point_in_body))
     }
 
     fn work(&self) -> MapWork {

@@ -3,7 +3,7 @@
 //! | file | what |
 //! |---|---|
 //! | `experiment`, `place` | from a config to a place of space with a start |
-//! | `maps`, `timed`, `drive` | the maps of one robot, what they cost, and its run to its end |
+//! | `maps`, `stages`, `timed`, `drive` | the maps of one robot, what they cost, and its run to its end |
 //! | `watch`, `fan`, `record` | who looks on: a recording, or nobody |
 //! | `session` | all robots of an experiment |
 //! | `report`, `steps` | the files of a run |
@@ -16,6 +16,7 @@ mod place;
 mod record;
 mod report;
 mod session;
+mod stages;
 mod steps;
 mod timed;
 mod watch;
@@ -27,5 +28,6 @@ pub(crate) use record::create_recording;
 pub use record::start_flight_recording;
 pub use report::{FlightMetrics, FlightTiming};
 pub use session::{FlightOutcome, flight_files, run_flight};
+pub use stages::StageTiming;
 pub use steps::{FlightRow, flight_parquet};
 pub use watch::{FlightSeen, FlightWatch};

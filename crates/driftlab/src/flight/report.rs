@@ -1,7 +1,10 @@
 //! What `metrics.json` and `timing.json` hold of each map of a flight: names that scripts rely on.
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 
+use super::StageTiming;
 use crate::run::CorrectionTiming;
 
 /// What one map of space believed and what was true.
@@ -105,6 +108,11 @@ pub struct FlightTiming {
     pub map_bytes_peak: u64,
     /// The same for each depth image, bytes.
     pub map_bytes_per_look: f64,
+    /// What each stage of the map cost, by name: of a look `prepare`, `triangulate`, `reduce` and `join` (to the
+    /// polyhedron), then `unite` or `consolidate`; and of what the policy asks.
+    pub stages: BTreeMap<&'static str, StageTiming>,
+    /// Most memory that the program held until then, recording included, bytes; null where the system does not tell.
+    pub peak_rss_bytes: Option<u64>,
     /// Time of the run of this map, seconds.
     pub wall_secs: f64,
 }
