@@ -241,14 +241,15 @@ pub trait Map3d {
     /// only holds it against farther ones now, once. Others do nothing.
     fn compare_farther(&mut self, _vertex: VertexId, _is_last: bool, _probe: &mut dyn Map3dProbe) {}
 
-    /// Frontier within `radius_m` of `place_in_body` does not count from now on.
+    /// Frontier within `radius_m` of any of these places does not count from now on.
     ///
     /// With `everywhere` the robot got as near as it may, looked, and it is still there: that holds for
-    /// every volume in scope, now and later. Without, only frontier of the vertex where it hovers.
+    /// every volume in scope, now and later. Without, only frontier of the vertex where it hovers. Views are measured
+    /// once, however many the places are.
     fn give_up(
         &mut self,
         hovering: &Hovering,
-        place_in_body: &Point3<f64>,
+        places_in_body: &[Point3<f64>],
         radius_m: f64,
         everywhere: bool,
         probe: &mut dyn Map3dProbe,

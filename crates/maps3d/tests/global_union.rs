@@ -280,7 +280,7 @@ fn areas_of_frontier_add_up_also_when_some_is_given_up() {
     map.frontiers(&hovering(1), &mut patches);
     let point = patches.first().expect("some frontier in sight").points[0];
     let before = map.tally();
-    map.give_up(&hovering(1), &point.in_body, 0.5, false, &mut Off);
+    map.give_up(&hovering(1), &[point.in_body], 0.5, false, &mut Off);
     let after = map.tally();
     assert!((sum(&map) - all_m2).abs() < 1e-9 * all_m2);
     assert!(after.given_up_m2 > 0.0 && after.open_m2 < before.open_m2);

@@ -71,7 +71,7 @@ fn the_sides_of_a_look_are_frontier_until_they_are_given_up() {
     assert!((told_m2 - tally.open_m2).abs() < 1e-9);
     let way = map.route(&hovering(0), 0.0, &|_| true);
     assert!(matches!(way, Some(FlightRoute::Fly(_))), "{way:?}");
-    map.give_up(&hovering(0), &Point3::origin(), 10.0, true, &mut Off);
+    map.give_up(&hovering(0), &[Point3::origin()], 10.0, true, &mut Off);
     assert_eq!((map.tally().patches, map.tally().open_m2), (0, 0.0));
     assert!((map.tally().given_up_m2 - tally.open_m2 - tally.sliver_m2).abs() < 1e-9);
     assert!(map.route(&hovering(0), 0.0, &|_| true).is_none());

@@ -199,13 +199,13 @@ impl Map3d for Side {
     fn give_up(
         &mut self,
         hovering: &Hovering,
-        place_in_body: &Point3,
+        places_in_body: &[Point3],
         radius_m: f64,
         everywhere: bool,
         probe: &mut dyn Map3dProbe,
     ) {
         self.stage("give_up", |map| {
-            map.give_up(hovering, place_in_body, radius_m, everywhere, probe)
+            map.give_up(hovering, places_in_body, radius_m, everywhere, probe)
         });
     }
 

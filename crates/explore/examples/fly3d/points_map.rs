@@ -373,14 +373,15 @@ impl Map3d for PointsMap {
     fn give_up(
         &mut self,
         hovering: &Hovering,
-        place: &Point3,
+        places: &[Point3],
         radius_m: f64,
         _: bool,
         _: &mut dyn Map3dProbe,
     ) {
-        let place = hovering.vertex_from_body.transform(place);
-        for s in self.samples.iter_mut().filter(|s| s.vertex == hovering.vertex) {
-            s.given_up |= (s.in_vertex - place).norm() < radius_m;
+        for place in places.iter().map(|place| hovering.vertex_from_body.transform(place)) {
+            for s in self.samples.iter_mut().filter(|s| s.vertex == hovering.vertex) {
+                s.given_up |= (s.in_vertex - place).norm() < radius_m;
+            }
         }
         self.fresh = false;
     }

@@ -161,6 +161,7 @@ impl FlightExplorer {
             self.later.put_off(owner);
             return false;
         }
+        let mut places = Vec::new();
         for (targets, why) in
             [(spent, FlightGiveUp::NothingNew), (fresh, FlightGiveUp::Unreachable)]
         {
@@ -170,9 +171,12 @@ impl FlightExplorer {
                 let was_tried = self.tries.count(&target, same_m) > 0;
                 let is_hidden = was_tried && is_hidden;
                 let why = if is_hidden { FlightGiveUp::Hidden } else { why };
-                self.give_up(owner, &target.at, target.area_m2, why, probe);
+                self.note_given_up(&target, why, probe);
+                places.push(target.at);
             }
         }
+        let hovering = Hovering { vertex: owner, vertex_from_body: Se3::identity() };
+        self.maps[0].give_up(&hovering, &places, same_m, false, &mut *probe);
         false
     }
 
@@ -328,22 +332,13 @@ impl FlightExplorer {
         *visit = if left_m2 < 0.95 * visit.1 { (1, left_m2) } else { (visit.0 + 1, visit.1) };
     }
 
-    fn give_up(
-        &mut self,
-        owner: VertexId,
-        place_in_vertex: &Point3,
-        area_m2: f64,
-        why: FlightGiveUp,
-        probe: &mut dyn FlightProbe,
-    ) {
+    /// Counts what is given up, by why.
+    fn note_given_up(&mut self, target: &Target, why: FlightGiveUp, probe: &mut dyn FlightProbe) {
+        let Target { owner, at: place_in_vertex, area_m2, .. } = *target;
         self.given_up += 1;
         let sum = self.given_up_by.entry(why).or_default();
         *sum = (sum.0 + area_m2, sum.1.max(area_m2));
-        let place_in_vertex = *place_in_vertex;
         probe.emit(FlightEvent::FrontierGivenUp { owner, place_in_vertex, area_m2, why });
-        let hovering = Hovering { vertex: owner, vertex_from_body: Se3::identity() };
-        let radius_m = self.params.same_place_m;
-        self.maps[0].give_up(&hovering, &place_in_vertex, radius_m, false, &mut *probe);
     }
 }
 

@@ -202,13 +202,15 @@ impl Map3d for UnionMap {
     fn give_up(
         &mut self,
         hovering: &Hovering,
-        place_in_body: &Point3,
+        places_in_body: &[Point3],
         radius_m: f64,
         _everywhere: bool,
         probe: &mut dyn Map3dProbe,
     ) {
-        let place = self.map_from_body(hovering).transform(place_in_body);
-        self.give_up_in_map(hovering.vertex, place, radius_m, false, probe);
+        for place_in_body in places_in_body {
+            let place = self.map_from_body(hovering).transform(place_in_body);
+            self.give_up_in_map(hovering.vertex, place, radius_m, false, probe);
+        }
         self.sort(probe);
     }
 

@@ -89,42 +89,48 @@ impl RelativeMap {
         points
     }
 
-    /// Frontier about a place does not count any more: that of the views of the vertex, or `everywhere`, of
+    /// Frontier about these places does not count any more: that of the views of the vertex, or `everywhere`, of
     /// all in scope and of those to come.
     pub(super) fn give_up_near(
         &mut self,
         hovering: &Hovering,
-        place_in_body: &Point3<f64>,
+        places_in_body: &[Point3<f64>],
         radius_m: f64,
         everywhere: bool,
         probe: &mut dyn Map3dProbe,
     ) {
         let vertex = hovering.vertex;
-        let place = hovering.vertex_from_body.transform(place_in_body);
-        let finite = place.iter().all(|x| x.is_finite()) && radius_m >= 0.0;
-        if !finite {
+        let places = places_in_body.iter().map(|place| hovering.vertex_from_body.transform(place));
+        let finite = |place: &Point3<f64>| place.iter().all(|x| x.is_finite()) && radius_m >= 0.0;
+        let places: Vec<Point3<f64>> = places.filter(finite).collect();
+        if places.is_empty() {
             return;
         }
         self.cover(vertex);
         self.take_scope(vertex, probe);
         let rows = if everywhere { self.scope.placed().len() } else { 1 };
         if everywhere {
-            self.given_up.push((vertex, place, radius_m));
+            self.given_up.extend(places.iter().map(|&place| (vertex, place, radius_m)));
         }
         for row in &self.scope.placed()[..rows] {
             for &view in self.views_of.get(row.vertex).into_iter().flatten() {
                 let state = &mut self.views[view as usize];
-                let in_vertex = row.root_from_vertex.inverse_transform(&place);
-                let in_camera = state.vertex_from_camera.inverse_transform(&in_vertex);
                 let (centre, ball_m) = state.open_ball;
-                state.given_up.push((in_camera, radius_m));
-                if state.counts() && (in_camera - centre).norm() <= ball_m + radius_m {
+                let mut is_near = false;
+                for place in &places {
+                    let in_vertex = row.root_from_vertex.inverse_transform(place);
+                    let in_camera = state.vertex_from_camera.inverse_transform(&in_vertex);
+                    state.given_up.push((in_camera, radius_m));
+                    is_near |= (in_camera - centre).norm() <= ball_m + radius_m;
+                }
+                if state.counts() && is_near {
                     state.measure(self.params.sliver_m2);
                 }
             }
         }
-        let place_in_vertex = place;
-        probe.emit(ConsolidationEvent::GivenUp { vertex, place_in_vertex, radius_m });
+        for place_in_vertex in places {
+            probe.emit(ConsolidationEvent::GivenUp { vertex, place_in_vertex, radius_m });
+        }
     }
 
     /// For each line, whether views in scope hold all of it but its end; retired ones as well.

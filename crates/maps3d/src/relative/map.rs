@@ -219,12 +219,12 @@ impl Map3d for RelativeMap {
     fn give_up(
         &mut self,
         hovering: &Hovering,
-        place_in_body: &Point3<f64>,
+        places_in_body: &[Point3<f64>],
         radius_m: f64,
         everywhere: bool,
         probe: &mut dyn Map3dProbe,
     ) {
-        self.give_up_near(hovering, place_in_body, radius_m, everywhere, probe);
+        self.give_up_near(hovering, places_in_body, radius_m, everywhere, probe);
         self.settled(hovering.vertex, probe);
     }
 

@@ -233,13 +233,14 @@ impl Map3d for VoxelMap {
     fn give_up(
         &mut self,
         hovering: &Hovering,
-        place_in_body: &Point3<f64>,
+        places_in_body: &[Point3<f64>],
         radius_m: f64,
         _everywhere: bool,
         _: &mut dyn Map3dProbe,
     ) {
         if let Some(map_from_body) = self.map_from_body(hovering) {
-            self.given_up.push((map_from_body.transform(place_in_body), radius_m));
+            let places = places_in_body.iter().map(|place| map_from_body.transform(place));
+            self.given_up.extend(places.map(|place| (place, radius_m)));
             self.measure();
         }
     }

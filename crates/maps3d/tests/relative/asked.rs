@@ -118,7 +118,7 @@ fn what_is_given_up_does_not_count_any_more() {
         fed.map.frontiers(&hovering(vertex), &mut patches);
         let Some(place) = patches.first().map(|patch| patch.points[0].in_body) else { break };
         let before_m2 = fed.map.tally().open_m2;
-        fed.map.give_up(&hovering(vertex), &place, 0.5, rounds % 2 == 0, &mut Off);
+        fed.map.give_up(&hovering(vertex), &[place], 0.5, rounds % 2 == 0, &mut Off);
         assert!(fed.map.tally().open_m2 < before_m2);
         rounds += 1;
         assert!(rounds < 500);
