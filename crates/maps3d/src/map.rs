@@ -237,8 +237,8 @@ pub trait Map3d {
         leaving_m: f64,
     ) -> FlightClearance;
 
-    /// Frontier of a vertex is about to be given up: a map that holds it against views near in the graph
-    /// only holds it against farther ones now, once. Others do nothing.
+    /// Frontier of a vertex was put off, or with `is_last` is about to be given up: a map that holds it against views
+    /// near in the graph only holds it against farther ones now. Others do nothing.
     fn compare_farther(&mut self, _vertex: VertexId, _is_last: bool, _probe: &mut dyn Map3dProbe) {}
 
     /// Frontier within `radius_m` of any of these places does not count from now on.

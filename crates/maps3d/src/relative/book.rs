@@ -12,7 +12,8 @@ pub enum Cause {
     Inside,
     /// It lies along an obstacle that another view saw, nearer than the named distance.
     Wall,
-    /// It lies behind such an obstacle, within twice that distance, and was about to be given up.
+    /// It lies behind such an obstacle, within twice that distance or by no more than drift may have moved it, and was
+    /// about to be given up.
     Behind,
 }
 
@@ -21,7 +22,7 @@ pub enum Cause {
 pub struct ClosingId(pub u32);
 
 /// One view closed frontier of another.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Closing {
     /// Inside a volume, or along a wall.
     pub cause: Cause,
@@ -33,6 +34,8 @@ pub struct Closing {
     pub step: u32,
     /// Along which path through the graph the two views were placed.
     pub path: PathId,
+    /// How far behind obstacles it closed, metres; of [`Cause::Behind`] alone, else 0.
+    pub behind_m: f32,
 }
 
 /// The closings, the paths that they relied on, and which of these a place edge carries.

@@ -9,7 +9,7 @@ use super::book::Cause;
 use super::distance::{motion_triangle, point_triangle};
 use super::grid::FaceGrid;
 use super::ledger::OpenPart;
-use super::pair::Pair;
+use super::pair::{Pair, shape_of};
 use super::parts::rings_of;
 use super::samples::triangles;
 use crate::{FlightClearance, Hovering};
@@ -121,6 +121,7 @@ impl RelativeMap {
         let mut work = std::mem::take(&mut self.work);
         let (mut all, mut rings) = (StepRings::new(), StepRings::new());
         let numbers = self.views_of(vertex);
+        let inside = (Cause::Inside, shape_of(Cause::Inside, &self.params));
         for &view in numbers {
             let state = &self.views[view as usize];
             let vertex_from_camera = &state.vertex_from_camera;
@@ -140,7 +141,7 @@ impl RelativeMap {
                 let other = &self.views[against as usize];
                 let camera_from_against = vertex_from_camera.inverse_mul(&other.vertex_from_camera);
                 let pair = Pair { view, against, camera_from_against, odometry_m: 0.0 };
-                work.close(&bare, &other.volume, &pair, Cause::Inside, &self.params, |_| true);
+                work.close(&bare, &other.volume, &pair, inside, |_| true);
                 for (face, after) in work.changed.drain(..) {
                     bare.open[face] = after;
                 }

@@ -57,6 +57,9 @@ pub(super) fn shape_of(cause: Cause, params: &RelativeParams) -> Shape {
     }
 }
 
+/// Where drift may have moved frontier by more than this, what stands before it says nothing, metres.
+const MOST_BEHIND_M: f64 = 4.0;
+
 impl RelativeMap {
     /// Closes what of the open frontier of one view the volume of another accounts for, one cause after the
     /// other: usually first what lies inside, then what is left along its walls.
@@ -69,7 +72,9 @@ impl RelativeMap {
         path: &mut dyn FnMut() -> Vec<EdgeId>,
         probe: &mut dyn Map3dProbe,
     ) {
-        if pair.view == pair.against || !may_touch(self, pair) {
+        let is_last = causes.contains(&Cause::Behind);
+        let behind_m = if is_last { self.behind_m(pair) } else { 0.0 };
+        if pair.view == pair.against || !may_touch(self, pair, behind_m.into()) {
             return;
         }
         // Slivers are not worth the time: they do not count, and get no larger.
@@ -80,7 +85,6 @@ impl RelativeMap {
         }
         let mut path_id: Option<PathId> = None;
         let mut taken = false;
-        let cause_may_be_doubted = !causes.contains(&Cause::Behind);
         for &cause in causes {
             if cause != Cause::Inside && self.params.wall_closing_m <= 0.0 {
                 continue;
@@ -88,20 +92,35 @@ impl RelativeMap {
             let mut work = std::mem::take(&mut self.work);
             let (view, against) =
                 (&self.views[pair.view as usize], &self.views[pair.against as usize]);
-            work.close(view, &against.volume, pair, cause, &self.params, |face| counts[face]);
+            let mut shape = shape_of(cause, &self.params);
+            if cause == Cause::Behind {
+                shape.shift_m = behind_m.into();
+            }
+            work.close(view, &against.volume, pair, (cause, shape), |face| counts[face]);
             // Looks of one vertex are exact to each other. What would be given up is closed by whoever can.
-            if view.vertex != against.vertex && cause_may_be_doubted {
+            if view.vertex != against.vertex && !is_last {
                 work.leave_doubtful(view, against, pair, &mut taken, (&self.params, self.drift));
             }
             if !work.changed.is_empty() {
                 let path = *path_id.get_or_insert_with(|| self.book.remember(path()));
                 let (view, by, step) = (pair.view, pair.against, self.looks);
-                let id = self.book.close(Closing { cause, view, by, step, path });
+                let behind_m = if cause == Cause::Behind { behind_m } else { 0.0 };
+                let id = self.book.close(Closing { cause, view, by, step, path, behind_m });
                 self.write(pair, cause, id, path, &mut work, probe);
                 work.touched.push((view, by));
             }
             self.work = work;
         }
+    }
+
+    /// How far behind obstacles of the other view frontier is closed that is about to be given up, metres: twice as far
+    /// as along walls, or as far as drift may have moved it.
+    #[expect(clippy::cast_possible_truncation, reason = "rounded once, and kept so")]
+    fn behind_m(&self, pair: &Pair) -> f32 {
+        let (centre, radius_m) = self.views[pair.view as usize].open_ball;
+        let moved_m = self.drift.reach_m(pair.odometry_m, centre.coords.norm() + radius_m);
+        let least_m = 2.0 * self.params.wall_closing_m;
+        if moved_m <= MOST_BEHIND_M { least_m.max(moved_m) as f32 } else { least_m as f32 }
     }
 
     /// Writes the changed faces of a pair into the ledger of the view, and tells.
@@ -158,12 +177,10 @@ impl Work {
         view: &ViewState,
         volume: &LocalVolume,
         pair: &Pair,
-        cause: Cause,
-        params: &RelativeParams,
+        (cause, shape): (Cause, Shape),
         wanted: impl Fn(usize) -> bool,
     ) {
         self.changed.clear();
-        let shape = shape_of(cause, params);
         let against_from_camera = pair.camera_from_against.inverse();
         let mut loaded = false;
         let solid: Vec<bool> = match cause {
@@ -258,10 +275,12 @@ fn is_beside(volume: &LocalVolume, corners: &[Point3<f64>]) -> bool {
 }
 
 /// Whether the open frontier of a view comes near the volume of the other at all.
-fn may_touch(map: &RelativeMap, pair: &Pair) -> bool {
+fn may_touch(map: &RelativeMap, pair: &Pair, behind_m: f64) -> bool {
     let (view, against) = (&map.views[pair.view as usize], &map.views[pair.against as usize]);
     let (centre, radius_m) = view.open_ball;
     let apart = centre - pair.camera_from_against.translation;
-    let reach_m = radius_m + against.volume.reach_m() + 4.0 * map.params.wall_closing_m;
+    // A step in depth is longer along rays to the side.
+    let grown_m = 2.0 * (2.0 * map.params.wall_closing_m).max(behind_m);
+    let reach_m = radius_m + against.volume.reach_m() + grown_m;
     apart.coords.norm_squared() <= reach_m * reach_m
 }

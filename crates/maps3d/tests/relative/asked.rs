@@ -5,7 +5,7 @@ use maps3d::{FlightRoute, FrontierPatch, Hovering, Known, Map3d, Sights};
 use nalgebra::{Point3, Vector3};
 use pose::Se3;
 use posegraph::EdgeKind;
-use probe::{Off, VertexId};
+use probe::{EdgeId, Off, VertexId};
 
 use super::scene::{Fed, reduced_to, room_image, vertex_from_camera};
 
@@ -223,4 +223,31 @@ fn a_view_that_is_contradicted_closes_nothing() {
     let believed_m2 = left_m2(off_rad, lenient);
     let doubted_m2 = left_m2(off_rad, strict);
     assert!(doubted_m2 > believed_m2 + 0.5, "{placed_m2} {believed_m2} {doubted_m2}");
+}
+
+#[test]
+fn what_was_put_off_is_placed_along_the_way_with_the_least_odometry() {
+    let mut fed = Fed::new(params());
+    let [here, over, there] = [0; 3].map(|_| fed.vertex());
+    let camera = vertex_from_camera(0.0);
+    let (first, step, aside) = (at(-3.0, -1.0, 0.0), at(1.0, 0.0, 0.0), at(0.5, 0.8, 0.0));
+    fed.look(here, camera, &room_image(&(first * camera)));
+    // The straight way is off by 20 degrees; the longer one was recognised at both ends.
+    let off = vertex_yaw(20f64.to_radians());
+    fed.edge(here, over, aside, EdgeKind::Place);
+    fed.edge(over, there, aside.inverse_mul(&step), EdgeKind::Place);
+    fed.edge(here, there, step * off, EdgeKind::Odometry);
+    looked_around(&mut fed, there, &(first * step));
+    let doubted_m2 = fed.map.frontier_at(here);
+    fed.map.compare_farther(here, false, &mut Off);
+    let left_m2 = fed.map.frontier_at(here);
+    assert!(left_m2 < doubted_m2 - 0.5, "{doubted_m2} {left_m2}");
+    assert!(left_m2 <= 1.1 * self::left_m2(0.0, 0.5), "{left_m2}");
+    // What closed it walks the place edges, and is taken back with one of them.
+    fed.map.compare_farther(here, true, &mut Off);
+    assert!(fed.map.frontier_at(here) <= left_m2);
+    let edge = EdgeId(0);
+    fed.graph.withdraw(edge).expect("an edge");
+    fed.map.edge_withdrawn(&fed.graph, edge, &mut Off);
+    assert!(fed.map.frontier_at(here) > left_m2 + 0.5);
 }
