@@ -1,6 +1,5 @@
 //! How much odometry drifts, as recognised places tell.
 
-use nalgebra::Point3;
 use pose::Se3;
 use posegraph::{PoseGraph, Scope};
 use probe::{EdgeId, VertexId};
@@ -44,12 +43,6 @@ impl Drift {
         }
         let per_m = (self.shifts + self.turns * lever_m * lever_m) / f64::from(self.loops);
         DEVIATIONS * (odometry_m * per_m).sqrt()
-    }
-
-    /// The same for the farthest of some points of a view from its camera.
-    pub fn reach_of(&self, odometry_m: f64, points: &[Point3<f64>]) -> f64 {
-        let lever_m = points.iter().map(|point| point.coords.norm()).fold(0.0, f64::max);
-        self.reach_m(odometry_m, lever_m)
     }
 }
 
@@ -113,7 +106,5 @@ mod tests {
         assert!(exact.reach_m(9.0, 8.0) < 1e-6);
         // 0.2 rad over 4 m are 0.1 rad over 1 m; over 9 m three times as much, twice that far off, at 8 m.
         assert!((rough.reach_m(9.0, 8.0) - 2.0 * 0.3 * 8.0).abs() < 1e-9);
-        let points = [Point3::new(0.0, 8.0, 0.0), Point3::new(1.0, 0.0, 0.0)];
-        assert_eq!(rough.reach_of(9.0, &points), rough.reach_m(9.0, 8.0));
     }
 }

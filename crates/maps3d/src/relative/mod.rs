@@ -10,7 +10,7 @@
 //! | `grid.rs` | the grid of a face, on which areas are whole numbers |
 //! | `slice.rs` | what of a face lies inside another volume |
 //! | `pair.rs` | two views held against each other |
-//! | `doubt.rs`, `drift.rs` | whether two views contradict each other; whether drift can be why |
+//! | `doubt.rs`, `drift.rs` | whether two views contradict each other; how much odometry drifts |
 //! | `incremental.rs`, `farther.rs` | which pairs, after edges came, and before frontier is given up |
 //! | `book.rs`, `withdraw.rs` | who closed what along which path; taken back |
 //! | `parts.rs`, `samples.rs` | frontier that hangs together; as points |

@@ -8,7 +8,6 @@ use probe::{EdgeId, PathId, Probe};
 
 use super::book::{Cause, Closing, ClosingId};
 use super::doubt::Doubt;
-use super::drift::Drift;
 use super::events::ConsolidationEvent;
 use super::grid::{self, FaceGrid};
 use super::ledger::OpenPart;
@@ -99,7 +98,7 @@ impl RelativeMap {
             work.close(view, &against.volume, pair, (cause, shape), |face| counts[face]);
             // Looks of one vertex are exact to each other. What would be given up is closed by whoever can.
             if view.vertex != against.vertex && !is_last {
-                work.leave_doubtful(view, against, pair, &mut taken, (&self.params, self.drift));
+                work.leave_doubtful(view, against, pair, &mut taken, &self.params);
             }
             if !work.changed.is_empty() {
                 let path = *path_id.get_or_insert_with(|| self.book.remember(path()));
@@ -220,14 +219,9 @@ impl Work {
         against: &ViewState,
         pair: &Pair,
         taken: &mut bool,
-        (params, drift): (&RelativeParams, Drift),
+        params: &RelativeParams,
     ) {
-        // Where drift cannot be why, what contradicts is that surfaces are reduced.
-        let corners = |face: usize| view.volume.points(view.volume.frontier()[face]);
-        let may_be_off =
-            |face: usize| drift.reach_of(pair.odometry_m, &corners(face)) >= params.contradiction_m;
-        let is_sure = !self.changed.iter().any(|(face, _)| may_be_off(*face));
-        if is_sure || params.contradiction_share >= 1.0 {
+        if self.changed.is_empty() || params.contradiction_share >= 1.0 {
             return;
         }
         if !std::mem::replace(taken, true) {
@@ -235,8 +229,9 @@ impl Work {
             self.doubt.take(&view.volume, &against.volume, camera_from_against, params);
         }
         let doubt = &self.doubt;
-        self.changed
-            .retain(|(face, _)| !may_be_off(*face) || !doubt.is_about(corners(*face), params));
+        self.changed.retain(|(face, _)| {
+            !doubt.is_about(view.volume.points(view.volume.frontier()[*face]), params)
+        });
     }
 
     /// What is left of the open part of a face beside a volume; `None` where nothing is taken.
