@@ -28,5 +28,7 @@ pub use map::{
 };
 pub use pipeline::{Made, ViewOptions, polyhedron, polyhedron_with};
 pub use plan::{Algorithm, Heuristic, Plan, PlanEvent, PlanOptions, Planner, Target};
-pub use relative::{ConsolidationEvent, RelativeMap, RelativeParams};
+pub use relative::{
+    ConsolidationEvent, FanOptions, FanSearch, FanWay, RelativeMap, RelativeParams,
+};
 pub use voxels::{VoxelMap, VoxelParams};

@@ -226,6 +226,17 @@ pub trait Map3d {
         self.route(hovering, clearance_m, comes_now)
     }
 
+    /// The way of a round body to the nearest frontier through the views around, whoever took them: bends and the
+    /// frontier at its end, in the frame `body`. `None` where there is none, and for maps that plan no other way
+    /// than [`route`](Self::route).
+    fn way_through_views(
+        &mut self,
+        _hovering: &Hovering,
+        _radius_m: f64,
+    ) -> Option<Vec<Point3<f64>>> {
+        None
+    }
+
     /// How near the straight motion `to_in_body` comes to what is solid, and to what was not seen.
     ///
     /// Within `leaving_m` of its start what was not seen does not count: the body is there already, or

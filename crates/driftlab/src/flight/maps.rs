@@ -192,6 +192,10 @@ impl Map3d for Side {
         self.stage("clearance", |map| map.clearance(hovering, to_in_body, leaving_m))
     }
 
+    fn way_through_views(&mut self, hovering: &Hovering, radius_m: f64) -> Option<Vec<Point3>> {
+        self.stage("way_through_views", |map| map.way_through_views(hovering, radius_m))
+    }
+
     fn compare_farther(&mut self, vertex: VertexId, is_last: bool, probe: &mut dyn Map3dProbe) {
         self.timed(|map| map.compare_farther(vertex, is_last, probe));
     }

@@ -2,10 +2,11 @@
 
 use pose::Se3;
 use probe::VertexId;
-use solid::predicates::{in_envelope, orient3};
-use solid::{Label, Point3, Polyhedron, SolidError, Tetrahedra, Vector3, jittered, tetrahedra};
+use solid::predicates::in_envelope;
+use solid::{Label, Point3, Polyhedron, SolidError, Tetrahedra, Vector3, jittered};
 
 use crate::relative::LocalVolume;
+use crate::view::placed_fan;
 
 /// The look that is drawn in by half of the most.
 const HALFWAY: f64 = 50.0;
@@ -92,18 +93,9 @@ impl View {
     /// The fan of the view in the frame `map`. Tetrahedra that rounding turned over are left out.
     ///
     /// # Errors
-    /// [`SolidError::NotStar`] where rounding made the view none, [`SolidError::OutsideEnvelope`] where its
-    /// pose is out of this world.
+    /// As [`placed_fan`].
     pub fn fan(&self) -> Result<Tetrahedra, SolidError> {
-        let mut fan = tetrahedra::fan(&self.in_camera, &Point3::origin())?;
-        for (vertex, point) in fan.vertices.iter_mut().enumerate() {
-            *point = self.map_from_camera.transform(point);
-            if !in_envelope(point) {
-                let [x, y, z] = point.coords.into();
-                return Err(SolidError::OutsideEnvelope { vertex, x, y, z });
-            }
-        }
-        Ok(without_flat(fan))
+        placed_fan(&self.in_camera, &self.map_from_camera)
     }
 
     /// The farthest that a point of the view moves when it goes to another pose, metres; bounded by way of the
@@ -151,29 +143,4 @@ pub(super) fn body_at(centre: &Point3, radius_m: f64) -> Option<Polyhedron> {
         .collect();
     let labels = vec![Label::Frontier; faces.len()];
     Polyhedron::try_new(vertices, faces, labels).ok()
-}
-
-fn without_flat(mut fan: Tetrahedra) -> Tetrahedra {
-    let sound = |tet: &[u32; 4]| {
-        let [a, b, c, d] = tet.map(|v| &fan.vertices[v as usize]);
-        orient3(a, b, c, d) > 0.0
-    };
-    let mut new_of = vec![None; fan.tetrahedra.len()];
-    let mut kept = 0;
-    for (new, tet) in new_of.iter_mut().zip(&fan.tetrahedra) {
-        if sound(tet) {
-            *new = Some(kept);
-            kept += 1;
-        }
-    }
-    let renamed = |old: Option<u32>| old.and_then(|t| new_of[t as usize]);
-    let keep = |t: usize| new_of[t].is_some();
-    let of = |t: usize| fan.neighbours[t].map(renamed);
-    let neighbours: Vec<_> = (0..fan.tetrahedra.len()).filter(|&t| keep(t)).map(of).collect();
-    let tetrahedra: Vec<_> =
-        (0..fan.tetrahedra.len()).filter(|&t| keep(t)).map(|t| fan.tetrahedra[t]).collect();
-    for face in &mut fan.boundary {
-        face.tetrahedra = face.tetrahedra.map(renamed);
-    }
-    Tetrahedra { neighbours, tetrahedra, ..fan }
 }

@@ -66,7 +66,7 @@ pub(super) fn to_frontier(
                     !united || face.volume > 0 || wanted.faces.binary_search(&face.face).is_ok();
                 counts && !is_in(wanted.given_up, &node.at) && !is_in(&blocked, &node.at)
             });
-            let start = inside(planner.space(), from)?;
+            let start = planner.space().entry(from, NEAR_M)?;
             let is_outside = (start - from).norm() > NEAR_M;
             let plan = match planner.plan(&start, &Target::Frontier) {
                 Ok(Some(plan)) => plan,
@@ -93,26 +93,6 @@ pub(super) fn to_frontier(
         }
     }
     None
-}
-
-/// The point, or one next to it that lies in the space: poses round, and a camera hovers at the tip of its own
-/// view. Where nothing of the map is near, because the look from there was refused, the middle of the
-/// nearest tetrahedron.
-fn inside(space: &crate::plan::Space, from: &Point3) -> Option<Point3> {
-    if space.locate(from).is_some() {
-        return Some(*from);
-    }
-    for away_m in [1e-6, 1e-3, 0.01, 0.03, NEAR_M] {
-        for direction in (0..27).filter(|&i| i != 13) {
-            let step = [direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 - 1].map(f64::from);
-            let way = solid::Vector3::from(step).normalize();
-            if space.locate(&(from + way * away_m)).is_some() {
-                return Some(from + way * away_m);
-            }
-        }
-    }
-    let middles = (0..space.len() as u32).map(|t| space.middle(t));
-    middles.min_by(|a, b| (a - from).norm_squared().total_cmp(&(b - from).norm_squared()))
 }
 
 fn length_m(points: &[Point3]) -> f64 {

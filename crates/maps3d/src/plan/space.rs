@@ -2,7 +2,7 @@
 
 use solid::bvh::{Aabb, Bvh};
 use solid::predicates::{in_envelope, orient3};
-use solid::{Label, Point3, Tetrahedra};
+use solid::{Label, Point3, Tetrahedra, Vector3};
 
 use super::obstacles::Obstacles;
 use crate::Maps3dError;
@@ -151,6 +151,65 @@ impl Space {
             !inside
         });
         self.frontier = frontier;
+    }
+
+    /// The point, or one next to it that lies in the space: poses round, and a camera hovers at the tip of its
+    /// own view. Where nothing is within `near_m`, the middle of the nearest tetrahedron; `None` in no space.
+    pub(crate) fn entry(&self, from: &Point3, near_m: f64) -> Option<Point3> {
+        if self.locate(from).is_some() {
+            return Some(*from);
+        }
+        for away_m in [1e-6, 1e-3, 0.01, 0.03].into_iter().filter(|m| *m < near_m).chain([near_m]) {
+            for direction in (0..27).filter(|&i| i != 13) {
+                let step = [direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 - 1];
+                let at = from + Vector3::from(step.map(f64::from)).normalize() * away_m;
+                if self.locate(&at).is_some() {
+                    return Some(at);
+                }
+            }
+        }
+        let middles = (0..self.len() as u32).map(|t| self.middle(t));
+        middles.min_by(|a, b| (a - from).norm_squared().total_cmp(&(b - from).norm_squared()))
+    }
+
+    /// Whether a straight segment lies in the tetrahedra, whichever they are of, to rounding: the part of it in
+    /// each is found by the planes of its faces, and the parts must leave no gap longer than `gap_m`.
+    /// O(log n) and the tetrahedra whose boxes it touches.
+    pub(crate) fn covers(&self, from: &Point3, to: &Point3, gap_m: f64) -> bool {
+        let length_m = (to - from).norm();
+        let mut parts: Vec<(f64, f64)> = Vec::new();
+        self.tree.each_touching(&Aabb::around([from, to]), |t| {
+            parts.extend(self.part_of(t, from, to));
+        });
+        parts.sort_by(|a, b| a.0.total_cmp(&b.0).then(a.1.total_cmp(&b.1)));
+        let gap = gap_m / length_m.max(gap_m);
+        let mut reached = 0.0;
+        for (start, end) in parts {
+            if start > reached + gap {
+                return false;
+            }
+            reached = end.max(reached);
+        }
+        reached >= 1.0 - gap
+    }
+
+    /// Which part of a segment lies in a tetrahedron, as shares of its length.
+    fn part_of(&self, tetrahedron: u32, from: &Point3, to: &Point3) -> Option<(f64, f64)> {
+        let [a, b, c, d] = self.corners(tetrahedron);
+        let (mut start, mut end) = (0.0_f64, 1.0_f64);
+        for ([p, q, r], inner) in [([b, c, d], a), ([a, c, d], b), ([a, b, d], c), ([a, b, c], d)] {
+            let normal = (q - p).cross(&(r - p));
+            let sign = normal.dot(&(inner - p)).signum();
+            let (above_from, above_to) =
+                (sign * normal.dot(&(from - p)), sign * normal.dot(&(to - p)));
+            match (above_from >= 0.0, above_to >= 0.0) {
+                (true, true) => {}
+                (false, false) => return None,
+                (true, false) => end = end.min(above_from / (above_from - above_to)),
+                (false, true) => start = start.max(above_from / (above_from - above_to)),
+            }
+        }
+        (start <= end).then_some((start, end))
     }
 
     /// Number of tetrahedra.

@@ -21,7 +21,23 @@ struct Cluster {
     area_m2: f64,
     moment: Vector3<f64>,
     normal: Vector3<f64>,
-    points: Vec<Point3<f64>>,
+    /// Middles of pieces in the frame of the vertex; the face of each, and its corners in the frame `camera`.
+    points: Vec<(Point3<f64>, u16, [Point3<f64>; 3])>,
+}
+
+/// A place to go to on frontier that counts.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Spot {
+    /// The place, in the frame of the vertex of the view.
+    pub in_vertex: Point3<f64>,
+    /// Unit vector across the frontier that it stands for, into the unknown.
+    pub normal_in_vertex: Vector3<f64>,
+    /// The area that it stands for, square metres.
+    pub area_m2: f64,
+    /// The face of the volume that it lies on.
+    pub face: u16,
+    /// The open piece of that face, a triangle of which the place is the middle; in the frame `camera`.
+    pub piece_in_camera: [Point3<f64>; 3],
 }
 
 impl RelativeMap {
@@ -49,44 +65,58 @@ impl RelativeMap {
         }
     }
 
-    /// A part as points: what lies in one cell of space and faces the same of six ways is one, at the place
-    /// of the part that is nearest to its middle. The largest area first.
+    /// A part as points in the frame `body`.
     fn points_of(
         &self,
         state: &ViewState,
         part: &FrontierPart,
         hovering: &Hovering,
     ) -> Vec<FrontierPoint> {
+        let body = &hovering.vertex_from_body;
+        let spots = self.spots_of(state, part).into_iter();
+        let point = |spot: Spot| FrontierPoint {
+            in_body: body.inverse_transform(&spot.in_vertex),
+            normal_in_body: body.rotation.inverse() * spot.normal_in_vertex,
+            area_m2: spot.area_m2,
+        };
+        spots.map(point).collect()
+    }
+
+    /// A part as places: what lies in one cell of space and faces the same of six ways is one, at the piece
+    /// of the part that is nearest to its middle. The largest area first.
+    pub(super) fn spots_of(&self, state: &ViewState, part: &FrontierPart) -> Vec<Spot> {
         let spacing_m = self.params.point_spacing_m;
         let mut clusters: BTreeMap<([i32; 3], usize), Cluster> = BTreeMap::new();
-        state.samples(part, |point_in_camera, area_m2, outward_in_camera| {
-            let point = state.vertex_from_camera.transform(&point_in_camera);
-            let normal = state.vertex_from_camera.rotation * outward_in_camera;
+        state.samples(part, |sample| {
+            let point = state.vertex_from_camera.transform(&sample.at);
+            let normal = state.vertex_from_camera.rotation * sample.outward;
             let cell = [0, 1, 2].map(|axis| (point[axis] / spacing_m).floor() as i32);
             let way = 2 * normal.iamax() + usize::from(normal[normal.iamax()] < 0.0);
             let cluster = clusters.entry((cell, way)).or_default();
-            cluster.area_m2 += area_m2;
-            cluster.moment += point.coords * area_m2;
-            cluster.normal += normal * area_m2;
-            cluster.points.push(point);
+            cluster.area_m2 += sample.area_m2;
+            cluster.moment += point.coords * sample.area_m2;
+            cluster.normal += normal * sample.area_m2;
+            cluster.points.push((point, sample.face, sample.corners));
         });
-        let mut points: Vec<FrontierPoint> = clusters
+        let mut spots: Vec<Spot> = clusters
             .into_values()
             .filter(|cluster| cluster.area_m2 > 0.0)
             .filter_map(|cluster| {
                 let middle = Point3::from(cluster.moment / cluster.area_m2);
                 let apart = |p: &Point3<f64>| (p - middle).norm_squared();
-                let nearest = cluster.points.iter().min_by(|a, b| apart(a).total_cmp(&apart(b)))?;
-                Some(FrontierPoint {
-                    in_body: hovering.vertex_from_body.inverse_transform(nearest),
-                    normal_in_body: hovering.vertex_from_body.rotation.inverse()
-                        * cluster.normal.try_normalize(0.0)?,
+                let nearest =
+                    cluster.points.iter().min_by(|a, b| apart(&a.0).total_cmp(&apart(&b.0)))?;
+                Some(Spot {
+                    in_vertex: nearest.0,
+                    normal_in_vertex: cluster.normal.try_normalize(0.0)?,
                     area_m2: cluster.area_m2,
+                    face: nearest.1,
+                    piece_in_camera: nearest.2,
                 })
             })
             .collect();
-        points.sort_by(|a, b| b.area_m2.total_cmp(&a.area_m2));
-        points
+        spots.sort_by(|a, b| b.area_m2.total_cmp(&a.area_m2));
+        spots
     }
 
     /// Frontier about these places does not count any more: that of the views of the vertex, or `everywhere`, of

@@ -10,7 +10,7 @@ use super::clearance::Shell;
 use super::drift::Drift;
 use super::events::ConsolidationEvent;
 use super::pair::Work;
-use super::{RelativeParams, ViewState};
+use super::{FanOptions, RelativeParams, ViewState};
 use crate::{
     FlightClearance, FlightRoute, FrontierPatch, Hovering, Known, Look, Map3d, Map3dProbe,
     MapTally, Maps3dError, Sights,
@@ -214,6 +214,17 @@ impl Map3d for RelativeMap {
     fn compare_farther(&mut self, vertex: VertexId, is_last: bool, probe: &mut dyn Map3dProbe) {
         self.compare_with_farther(vertex, is_last, probe);
         self.settled(vertex, probe);
+    }
+
+    fn way_through_views(
+        &mut self,
+        hovering: &Hovering,
+        radius_m: f64,
+    ) -> Option<Vec<Point3<f64>>> {
+        let options = FanOptions { radius_m, ..FanOptions::default() };
+        // A radius out of its range has no way.
+        let way = self.way_through_fans(hovering, &options).ok()?.way?;
+        Some(way.in_body.into_iter().skip(1).collect())
     }
 
     fn give_up(

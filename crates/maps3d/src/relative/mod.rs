@@ -15,6 +15,7 @@
 //! | `book.rs`, `withdraw.rs` | who closed what along which path; taken back |
 //! | `parts.rs`, `samples.rs` | frontier that hangs together; as points |
 //! | `ask.rs`, `clearance.rs`, `distance.rs` | the policy's questions |
+//! | `fans.rs`, `fan_way.rs` | free space around a vertex as tetrahedra; the way to the nearest frontier through them |
 //! | `events.rs`, `params.rs` | what can be watched, what can be chosen |
 
 #![doc = include_str!("../../docs/relative.md")]
@@ -27,6 +28,8 @@ mod distance;
 mod doubt;
 mod drift;
 mod events;
+mod fan_way;
+mod fans;
 mod farther;
 mod grid;
 mod incremental;
@@ -44,6 +47,7 @@ mod withdraw;
 
 pub use book::{Book, Cause, Closing, ClosingId};
 pub use events::ConsolidationEvent;
+pub use fan_way::{FanOptions, FanSearch, FanWay};
 pub use grid::{FaceGrid, STEPS, TWICE_AREA};
 pub use ledger::OpenPart;
 pub use map::RelativeMap;

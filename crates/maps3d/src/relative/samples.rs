@@ -47,13 +47,13 @@ pub(super) fn triangles(rings: &StepRings, mut call: impl FnMut(Piece)) {
     }
 }
 
-/// Calls with points of a region of a face, in the frame of the face, and the area that each stands for,
-/// square metres; no piece is longer than `longest_m`. The areas add up to that of the region.
-pub(super) fn samples(
+/// Calls with triangles that fill a region of a face, in the frame of the face, each with its area, square
+/// metres; none is longer than `longest_m`. The areas add up to that of the region.
+pub(super) fn pieces(
     face: &FaceGrid,
     rings: &StepRings,
     longest_m: f64,
-    mut call: impl FnMut(Point3<f64>, f64),
+    mut call: impl FnMut([Point3<f64>; 3], f64),
 ) {
     let step_m2 = face.step_m2();
     let mut open: Vec<Piece> = Vec::new();
@@ -72,10 +72,14 @@ pub(super) fn samples(
             }
             let [a, b, c] = piece;
             let twice = (b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0]);
-            let centre = (points[0].coords + points[1].coords + points[2].coords) / 3.0;
-            call(Point3::from(centre), 0.5 * twice.abs() * step_m2);
+            call(points, 0.5 * twice.abs() * step_m2);
         }
     });
+}
+
+/// The middle of a piece: the point that stands for it.
+pub(super) fn middle(piece: &[Point3<f64>; 3]) -> Point3<f64> {
+    Point3::from((piece[0].coords + piece[1].coords + piece[2].coords) / 3.0)
 }
 
 #[cfg(test)]
@@ -92,7 +96,8 @@ mod tests {
         let face = FaceGrid::new([at(0.0, 0.0, 1.0), at(3.0, 0.0, 1.0), at(0.0, 2.0, 1.5)]);
         let expected_m2 = rings.twice_area() as f64 * 0.5 * face.step_m2();
         let (mut sum_m2, mut most_m2) = (0.0, 0.0_f64);
-        samples(&face, &rings, 0.2, |point, area_m2| {
+        pieces(&face, &rings, 0.2, |piece, area_m2| {
+            let point = middle(&piece);
             sum_m2 += area_m2;
             most_m2 = most_m2.max(area_m2);
             assert!((point.z - 1.0 - 0.25 * point.y).abs() < 1e-9);

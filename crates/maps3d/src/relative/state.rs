@@ -9,7 +9,7 @@ use super::book::ClosingId;
 use super::grid::FaceGrid;
 use super::ledger::OpenPart;
 use super::parts::{FrontierPart, parts, rings_of};
-use super::samples::samples;
+use super::samples::{middle, pieces};
 use super::volume::LocalVolume;
 
 /// Pieces that stand for frontier are no longer than this, metres.
@@ -44,6 +44,20 @@ pub struct ViewState {
     pub given_up: Vec<(Point3<f64>, f64)>,
     /// Whether it is out of later comparisons.
     pub retired: bool,
+}
+
+/// A small piece of open frontier, in the frame `camera`.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Sample {
+    /// The face of the volume that it lies on.
+    pub face: u16,
+    /// Its corners, metres.
+    pub corners: [Point3<f64>; 3],
+    /// Its middle, which stands for it.
+    pub at: Point3<f64>,
+    pub area_m2: f64,
+    /// Unit vector across the frontier, into the unknown.
+    pub outward: Vector3<f64>,
 }
 
 impl ViewState {
@@ -81,22 +95,19 @@ impl ViewState {
         FaceGrid::new(self.volume.points(self.volume.frontier()[index]))
     }
 
-    /// Calls with points of a part, in the frame `camera`, the area that each stands for, square metres, and
-    /// the unit vector across the frontier there, into the unknown. Leaves out what was given up.
-    pub(super) fn samples(
-        &self,
-        part: &FrontierPart,
-        mut call: impl FnMut(Point3<f64>, f64, Vector3<f64>),
-    ) {
+    /// Calls with the small pieces of a part, in the order of its faces. Leaves out what was given up.
+    pub(super) fn samples(&self, part: &FrontierPart, mut call: impl FnMut(&Sample)) {
         let (mut all, mut rings) = (StepRings::new(), StepRings::new());
         for &piece in &part.pieces {
             let index = usize::from(piece.face);
             rings_of(&self.open[index], piece, &mut all, &mut rings);
             let grid = self.grid(index);
             let outward = grid.outward();
-            samples(&grid, &rings, SAMPLE_M, |point, area_m2| {
-                if !self.is_given_up(&point) {
-                    call(point, area_m2, outward);
+            let face = self.volume.frontier()[index];
+            pieces(&grid, &rings, SAMPLE_M, |corners, area_m2| {
+                let at = middle(&corners);
+                if !self.is_given_up(&at) {
+                    call(&Sample { face, corners, at, area_m2, outward });
                 }
             });
         }
@@ -121,7 +132,7 @@ impl ViewState {
             let mut left_m2 = part.area_m2;
             if !self.given_up.is_empty() {
                 left_m2 = 0.0;
-                self.samples(&part, |_, area_m2, _| left_m2 += area_m2);
+                self.samples(&part, |sample| left_m2 += sample.area_m2);
             }
             let given_up_m2 = (part.area_m2 - left_m2).max(0.0);
             self.given_up_m2 += given_up_m2;

@@ -1,6 +1,6 @@
 //! The policy's questions in a room of which everything is known.
 
-use maps3d::relative::RelativeParams;
+use maps3d::relative::{FanOptions, RelativeParams};
 use maps3d::{FlightRoute, FrontierPatch, Hovering, Known, Map3d, Sights};
 use nalgebra::{Point3, Vector3};
 use pose::Se3;
@@ -250,4 +250,58 @@ fn what_was_put_off_is_placed_along_the_way_with_the_least_odometry() {
     fed.graph.withdraw(edge).expect("an edge");
     fed.map.edge_withdrawn(&fed.graph, edge, &mut Off);
     assert!(fed.map.frontier_at(here) > left_m2 + 0.5);
+}
+
+/// How far a point is from the walls and the pillar of the room, metres.
+fn from_solid_m(p: &Point3<f64>) -> f64 {
+    let walls_m = [4.0 - p.x.abs(), 3.0 - p.y.abs(), 1.5 - p.z.abs()];
+    let pillar_m = (p.x - 1.3).abs().max((p.y - 0.8).abs()) - 0.3;
+    walls_m.into_iter().fold(pillar_m, f64::min)
+}
+
+/// The middle and the 26 directions around it.
+fn around() -> impl Iterator<Item = Vector3<f64>> {
+    (0..27).map(|i| Vector3::from([i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1].map(f64::from)))
+}
+
+#[test]
+fn a_way_through_the_fans_stays_inside_of_them_and_clear_of_walls() {
+    let mut fed = Fed::new(params());
+    let first = fed.vertex();
+    // One look ahead: everything else is behind its sides.
+    let (camera, place) = (vertex_from_camera(0.0), at(-2.0, -1.0, 0.0));
+    fed.look(first, camera, &room_image(&(place * camera)));
+    let second = fed.vertex();
+    fed.edge(first, second, at(5.0, 3.0, 0.0), EdgeKind::Odometry);
+    looked_around(&mut fed, second, &at(3.0, 2.0, 0.0));
+    for (vertex, world_from_vertex) in [(first, place), (second, at(3.0, 2.0, 0.0))] {
+        let here = hovering(vertex);
+        for radius_m in [0.1, 0.25] {
+            let options = FanOptions { radius_m, ..FanOptions::default() };
+            let search = fed.map.way_through_fans(&here, &options).expect("a radius");
+            assert!(search.volumes == 5 && search.goals > 0, "{search:?}");
+            let way = search.way.expect("frontier is left");
+            assert!(way.length_m > radius_m && way.keeps_m <= radius_m, "{way:?}");
+            let told = fed.map.way_through_views(&here, radius_m).expect("the same");
+            assert_eq!(told[..], way.in_body[1..]);
+            for leg in way.in_body.windows(2) {
+                for step in 0..=20 {
+                    let share = f64::from(step) / 20.0;
+                    let at = leg[0] + (leg[1] - leg[0]) * share;
+                    let clear_m = from_solid_m(&world_from_vertex.transform(&at));
+                    assert!(clear_m > way.keeps_m - 0.05, "{clear_m} at {at}: {way:?}");
+                    // A way may run along the side of a look: next to it somebody looked.
+                    let mut next = around().map(|by| at + by * 1e-3);
+                    let is_free = next.any(|p| fed.map.knows(&here, &p) == Known::Free);
+                    assert!(is_free, "{at}: {way:?}");
+                }
+            }
+            // Beyond the end somebody has still to look: near it there is what nobody knows.
+            let end = way.in_body.last().expect("the end");
+            let mut next = around().map(|by| end + by * 0.1);
+            assert!(next.any(|p| fed.map.knows(&here, &p) != Known::Free), "{end}");
+        }
+    }
+    let bad = FanOptions { radius_m: f64::NAN, ..FanOptions::default() };
+    assert!(fed.map.way_through_fans(&hovering(first), &bad).is_err());
 }

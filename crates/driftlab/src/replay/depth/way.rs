@@ -17,8 +17,8 @@ pub(super) struct Way {
     pub length_m: f64,
 }
 
-/// Finds the way for a body of a radius, as the map knows ways: through tetrahedra, through cells, or along
-/// the graph and then straight on.
+/// Finds the way for a body of a radius, as the map knows ways: through tetrahedra of one volume, of the fans of
+/// many, through cells, or along the graph and then straight on.
 pub(super) fn to_frontier(
     map: &mut dyn Map3d,
     hovering: &Hovering,
@@ -31,7 +31,10 @@ pub(super) fn to_frontier(
         Some(*vertex * hovering.vertex_from_body)
     };
     let log_from_body = log_from(hovering)?;
-    let route = map.route_with(hovering, body_radius_m, &|_| true, recorder);
+    let route = match map.way_through_views(hovering, body_radius_m) {
+        Some(points) => Some(FlightRoute::Fly(points)),
+        None => map.route_with(hovering, body_radius_m, &|_| true, recorder),
+    };
     let mut in_log = vec![Point3::from(log_from_body.translation)];
     match route {
         Some(FlightRoute::Fly(points)) if !points.is_empty() => {
@@ -43,10 +46,15 @@ pub(super) fn to_frontier(
                 in_log.push(log_from_vertex.get(vertex.0 as usize)?.translation.into());
             }
             let there = Hovering { vertex: last, ..*hovering };
-            in_log.push(log_from(&there)?.transform(&nearest(map, &there)?));
+            let log_from_there = log_from(&there)?;
+            let ends = match map.way_through_views(&there, body_radius_m) {
+                Some(points) => points,
+                None => vec![nearest(map, &there, body_radius_m)?],
+            };
+            in_log.extend(ends.iter().map(|point| log_from_there.transform(point)));
         }
         // Nothing to find a way through: what is in sight is straight ahead.
-        _ => in_log.push(log_from_body.transform(&nearest(map, hovering)?)),
+        _ => in_log.push(log_from_body.transform(&nearest(map, hovering, body_radius_m)?)),
     }
     let length_m = in_log.windows(2).map(|leg| (leg[1] - leg[0]).norm()).sum();
     let body_from_log = log_from_body.inverse();
@@ -56,10 +64,12 @@ pub(super) fn to_frontier(
     Some(Way { in_log, length_m })
 }
 
-/// The frontier point that is nearest to where the robot hovers, of what it has in view there.
-fn nearest(map: &mut dyn Map3d, hovering: &Hovering) -> Option<Point3> {
+/// The frontier point that is nearest to where the robot hovers, of what it has in view there and does not touch
+/// already.
+fn nearest(map: &mut dyn Map3d, hovering: &Hovering, body_radius_m: f64) -> Option<Point3> {
     let mut patches = Vec::new();
     map.frontiers(hovering, &mut patches);
     let points = patches.iter().flat_map(|patch| &patch.points).map(|point| point.in_body);
-    points.min_by(|a, b| a.coords.norm().total_cmp(&b.coords.norm()))
+    let apart = points.filter(|point| point.coords.norm() > body_radius_m);
+    apart.min_by(|a, b| a.coords.norm().total_cmp(&b.coords.norm()))
 }
