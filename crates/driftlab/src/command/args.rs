@@ -145,8 +145,9 @@ pub(super) struct ConfigInput {
     /// Explore this map file instead of the config's world
     ///
     /// For a robot on the floor a map_server YAML file, a PGM or PNG image, or a MovingAI `.map`, told
-    /// by the content; for one that flies a mesh in metres, OBJ, STL, PLY or OFF, told by the name. The start of the config's own world is dropped. A plain image takes 0.05 m per pixel
-    /// unless the config, or `--set world.image.resolution_m=...`, says otherwise.
+    /// by the content; for one that flies a mesh in metres, OBJ, STL, PLY or OFF, told by the name. The
+    /// start of the config's own world is dropped. A plain image takes 0.05 m per
+    /// pixel unless the config, or `--set world.image.resolution_m=...`, says otherwise.
     #[arg(long, value_name = "FILE")]
     pub(super) world: Option<PathBuf>,
 }

@@ -6,6 +6,7 @@ use super::ask::clearance;
 use super::places::is_in;
 use super::surface::Surface;
 use super::volumes::Volumes;
+use crate::plan::polyline_m;
 use crate::{FlightClearance, Maps3dError, Plan, Target};
 
 /// What was not seen does not count so near to where a way starts, metres: the robot is there.
@@ -85,7 +86,7 @@ pub(super) fn to_frontier(
             let keeps = |c: &FlightClearance| c.keeps(0.99 * radius_m, unseen_m);
             let given = cut(wanted.surfaces, &points, wanted.stop_short_m, keeps);
             let given = straightened(wanted.surfaces, given, keeps);
-            if plan.clear && length_m(&given) >= LEAST_M.min(0.5 * plan.path_m) {
+            if plan.clear && polyline_m(&given) >= LEAST_M.min(0.5 * plan.path_m) {
                 let skipped = usize::from(!is_outside);
                 return Some((plan, given[skipped..].to_vec()));
             }
@@ -93,10 +94,6 @@ pub(super) fn to_frontier(
         }
     }
     None
-}
-
-fn length_m(points: &[Point3]) -> f64 {
-    points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
 }
 
 /// The same path with its first leg as long as it may be: whoever flies it leg by leg asks for a new one after
@@ -124,7 +121,7 @@ fn cut(
     short_m: f64,
     keeps: impl Fn(&FlightClearance) -> bool,
 ) -> Vec<Point3> {
-    let whole_m = length_m(points);
+    let whole_m = polyline_m(points);
     let mut left_m = whole_m - short_m.min(0.5 * whole_m);
     let mut gone_m = 0.0;
     let mut kept = vec![points[0]];

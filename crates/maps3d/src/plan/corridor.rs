@@ -128,6 +128,11 @@ pub struct Miss {
 }
 
 /// Length of a polyline, metres.
+pub(crate) fn polyline_m(points: &[Point3]) -> f64 {
+    points.windows(2).map(|pair| (pair[1] - pair[0]).norm()).sum()
+}
+
+/// The same of knots.
 pub(super) fn length_m(knots: &[Knot]) -> f64 {
     knots.windows(2).map(|pair| (pair[1].at - pair[0].at).norm()).sum()
 }

@@ -15,6 +15,7 @@ mod shorten;
 mod space;
 
 pub use bottleneck::{Passage, passage};
+pub(crate) use corridor::polyline_m;
 pub use corridor::{Corridor, Knot, Miss};
 pub use events::PlanEvent;
 pub use frontier::FrontierNode;

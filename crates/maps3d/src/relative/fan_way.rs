@@ -4,7 +4,7 @@ use solid::{Point3, Tetrahedra};
 
 use super::RelativeMap;
 use super::fans::Fans;
-use crate::plan::{FrontierNode, Space};
+use crate::plan::{FrontierNode, Space, polyline_m};
 use crate::{Hovering, Maps3dError, PlanOptions, Planner, Target};
 
 /// A body is no smaller than this, metres: without a radius nothing would keep a way in one volume from an
@@ -192,7 +192,7 @@ impl Seeker {
             self.planner.plan(&self.start, target).ok().flatten().filter(|plan| plan.clear)?;
         let (space, keeps_m) = (self.planner.space(), self.keeps_m);
         let in_body = drawn_straight(space, &plan.points(), keeps_m);
-        let length_m = in_body.windows(2).map(|leg| (leg[1] - leg[0]).norm()).sum();
+        let length_m = polyline_m(&in_body);
         Some(FanWay { in_body, length_m, centroids_m: Some(plan.cost_m), keeps_m })
     }
 }

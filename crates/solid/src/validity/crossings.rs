@@ -34,11 +34,12 @@ pub struct Crossing {
 
 /// The faces whose corners lie exactly on one line, ascending.
 pub(crate) fn flat_faces(mesh: &Polyhedron) -> Vec<u32> {
-    let is_flat = |face: &usize| {
-        let [a, b, c] = mesh.corners(*face);
-        is_collinear(a, b, c)
-    };
-    (0..mesh.faces().len()).filter(is_flat).map(|face| face as u32).collect()
+    (0..mesh.faces().len() as u32).filter(|&face| is_flat(mesh, face)).collect()
+}
+
+fn is_flat(mesh: &Polyhedron, face: u32) -> bool {
+    let [a, b, c] = mesh.corners(face as usize);
+    is_collinear(a, b, c)
 }
 
 /// The pairs of faces that have more in common than corners and edges at the same places, at most
@@ -90,26 +91,15 @@ pub(super) fn crossings_of(mesh: &Polyhedron, flat: &[u32], limit: usize) -> Vec
 ///
 /// O((n + k) log k) for k of n faces where few boxes touch.
 pub(crate) fn any_is_crossed(mesh: &Polyhedron, some: &[u32]) -> bool {
-    let is_flat = |face: u32| {
-        let [a, b, c] = mesh.corners(face as usize);
-        is_collinear(a, b, c)
-    };
-    if some.iter().any(|&face| is_flat(face)) {
+    if some.iter().any(|&face| is_flat(mesh, face)) {
         return true;
     }
     let tree = Bvh::new(&some.iter().map(|&face| around(mesh, face)).collect::<Vec<_>>());
     let meets = |a: u32, b: u32| {
         let (p, q) = (mesh.corners(a as usize), mesh.corners(b as usize));
         // The places of the second are those of the first where they are the same.
-        let place = |(j, at): (usize, &&Point3)| match p.iter().position(|other| other == at) {
-            Some(i) => i as u32,
-            None => 3 + j as u32,
-        };
-        let mut places = [0; 3];
-        for (j, at) in q.iter().enumerate() {
-            places[j] = place((j, at));
-        }
-        meet(p, [0, 1, 2], q, places).is_some()
+        let place = |j: usize| p.iter().position(|&at| at == q[j]).unwrap_or(3 + j) as u32;
+        meet(p, [0, 1, 2], q, [0, 1, 2].map(place)).is_some()
     };
     let look = |a: u32, b: u32| {
         if meets(a, b) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
