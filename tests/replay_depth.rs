@@ -78,6 +78,51 @@ fn images_become_maps_meshes_and_a_way_to_the_nearest_frontier() {
 }
 
 #[test]
+fn what_is_wrong_with_single_images_leaves_these_out_and_is_told() {
+    let desk = desk();
+    let mut poses = fs::read_to_string(desk.path("walk/pose.txt")).expect("the poses");
+    // One is cut, one is black, the poses of two are none.
+    fs::write(desk.path("walk/depth_3.pgm"), &image(0)[..90]).expect("a file");
+    let black = [b"P5\n40 30\n65535\n".to_vec(), vec![0; 2 * COLUMNS * ROWS]].concat();
+    fs::write(desk.path("walk/depth_4.pgm"), black).expect("a file");
+    fs::write(desk.path("walk/depth_5.pgm"), image(0)).expect("a file");
+    fs::write(desk.path("walk/depth_6.pgm"), image(0)).expect("a file");
+    poses += &"0 0 0 0 0 0 1\n".repeat(2);
+    poses += "nan -inf 0 0 0 0 1\n1e12 0 0 0 0 0 1\n";
+    desk.put("walk/pose.txt", &poses);
+    let good = ["replay", "walk", "a.toml", "--out", "r", "--json"];
+    let output = desk.driftlab(&good);
+    let (said, told) = (stderr(&output), json(&output));
+    let metrics = &told["metrics"];
+    assert_eq!((&metrics["keyframes"], &metrics["images"]), (&3.into(), &5.into()), "{said}");
+    assert_eq!(metrics["left_out"], 2, "{said}");
+    for words in [
+        "depth_3.pgm: ",
+        "1 images left out, with less than 32 readings",
+        "depth_5.pgm: left out, its line is no pose",
+        "is none",
+        "1 images without a pose within",
+    ] {
+        assert!(said.contains(words), "{words}: {said}");
+    }
+    // The maps are those of the good images.
+    let again = Desk::new(CONFIG);
+    walk(&again);
+    let clean = json(&again.driftlab(&good));
+    assert_eq!(clean["metrics"]["maps"], metrics["maps"]);
+}
+
+#[test]
+fn a_config_without_a_table_for_it_says_what_is_taken() {
+    let desk = desk();
+    desk.put("b.toml", "name = \"b\"\n[map3d.voxels]\ncell_m = 0.1\n[record]\nlevel = \"off\"\n");
+    let output = desk.driftlab(&["replay", "walk", "b.toml", "--out", "r"]);
+    let said = stderr(&output);
+    assert_eq!(code(&output), 0, "{said}");
+    assert!(said.contains("b.toml: no table [replay3d]"), "{said}");
+}
+
+#[test]
 fn a_recording_of_the_images_gives_the_same_result() {
     let desk = desk();
     assert_eq!(code(&desk.driftlab(&["log", "convert", "walk", "walk.mcap"])), 0);

@@ -25,6 +25,17 @@ const fn ends_word(byte: u8) -> bool {
     is_blank(byte) || byte == b'\n'
 }
 
+/// Whether a word is what older C libraries of Windows write for a number that is none: `1.#QNAN`, `-1.#IND00`,
+/// `1.#INF000e+000`.
+fn is_none_of_windows(word: &[u8]) -> bool {
+    let word = word.strip_prefix(b"-").unwrap_or(word);
+    let name = word.strip_prefix(b"1.#").unwrap_or_default();
+    [&b"QNAN"[..], b"SNAN", b"IND", b"INF"].iter().any(|&none| {
+        let rest = name.strip_prefix(none);
+        rest.is_some_and(|rest| rest.iter().all(|byte| matches!(byte, b'0'..=b'9' | b'e' | b'+')))
+    })
+}
+
 impl<'a> Lexer<'a> {
     /// Starts before the first line; a byte-order mark is passed over.
     pub fn new(bytes: &'a [u8]) -> Self {
@@ -136,7 +147,8 @@ impl<'a> Lexer<'a> {
         }
     }
 
-    /// The next word as a number that need not be finite.
+    /// The next word as a number that need not be finite; what the C library of Windows writes for such, `-1.#IND`
+    /// and the like, too.
     ///
     /// # Errors
     /// [`FormatError::Unexpected`] where the line ends, or stands no number.
@@ -149,6 +161,10 @@ impl<'a> Lexer<'a> {
             Ok((value, length)) if rest.get(length).is_none_or(|&byte| ends_word(byte)) => {
                 self.at += length;
                 Ok(value)
+            }
+            _ if is_none_of_windows(self.peeked()) => {
+                self.at += self.peeked().len();
+                Ok(f64::NAN)
             }
             _ => Err(self.unexpected(expected)),
         }
@@ -242,6 +258,16 @@ mod tests {
         assert_eq!(lexer.word(), b"C");
         assert_eq!(lexer.id("an id"), Ok(u64::MAX));
         assert!(!lexer.next_line() && !lexer.next_line());
+    }
+
+    #[test]
+    fn what_windows_writes_for_no_number_is_one() {
+        let mut lexer = Lexer::new(b"-1.#IND000e+000 1.#QNAN -1.#INF nan -inf 2 1.#IND_x");
+        assert!(lexer.next_line());
+        let read: Vec<f64> = (0..6).filter_map(|_| lexer.any_float("x").ok()).collect();
+        assert!(read.len() == 6 && read[..4].iter().all(|x| x.is_nan()), "{read:?}");
+        assert_eq!(read[4..], [f64::NEG_INFINITY, 2.0]);
+        assert!(lexer.any_float("x").is_err() && lexer.float("x").is_err());
     }
 
     #[test]

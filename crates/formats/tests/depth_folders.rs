@@ -29,6 +29,12 @@ fn a_pose_file_beside_each_image() {
         ("frame-000003.depth.png", ""),
         ("frame-000003.pose.txt", "nan nan nan nan\nnan nan nan nan\n1 1 1 1\n0 0 0 1\n"),
         ("frame-000004.depth.png", ""),
+        ("frame-000005.depth.png", ""),
+        ("frame-000005.pose.txt", ""),
+        ("frame-000006.depth.png", ""),
+        ("frame-000006.pose.txt", "-1.#IND000e+000 0 0 0\n0 1 0 0\n0 0 1 -inf\n0 0 0 1\n"),
+        ("frame-000007.depth.png", ""),
+        ("frame-000007.pose.txt", "1 0 0\n"),
         ("frame-000002.color.png", ""),
     ])
     .expect("a folder");
@@ -37,13 +43,18 @@ fn a_pose_file_beside_each_image() {
     assert_eq!(files, ["frame-000002.depth.png", "frame-000010.depth.png"]);
     assert_eq!(folder.frames[0].map_from_camera.translation.x, 2.0);
     assert_eq!(folder.camera.map(|camera| (camera.fx, camera.cy)), Some((585.0, 240.0)));
-    assert_eq!(folder.warnings.len(), 2, "{:?}", folder.warnings);
+    assert_eq!(folder.warnings.len(), 5, "{:?}", folder.warnings);
+    assert!(folder.warnings[4].contains("frame-000007.pose.txt: line 1"), "{:?}", folder.warnings);
 }
 
 #[test]
 fn images_and_poses_meet_by_time() {
     let folder = of(&[
-        ("groundtruth.txt", "# t\n2.01 1 0 0 0 0 0 1\n1.99 0 0 0 0 0 0 1\n5 0 0 0 0 0 0 1\n"),
+        (
+            "groundtruth.txt",
+            "# t\n2.01 1 0 0 0 0 0 1\n1.99 0 0 0 0 0 0 1\n5 0 0 0 0 0 0 1\n\
+          3.0 nan nan nan nan nan nan nan\n3.01 0 0 0 0 0 0 0\n",
+        ),
         ("depth.txt", "# depth\n3.0 depth/3.png\n2.0 depth/2.png\n5.01 depth/5.png\n"),
         ("depth/2.png", ""),
     ])
@@ -52,7 +63,8 @@ fn images_and_poses_meet_by_time() {
     let files: Vec<&str> = folder.frames.iter().map(|frame| frame.file.as_str()).collect();
     assert_eq!(files, ["depth/2.png", "depth/5.png"], "nothing is near 3 s");
     assert!((folder.frames[0].map_from_camera.translation.x - 0.5).abs() < 1e-9, "between the two");
-    assert_eq!(folder.warnings.len(), 1);
+    assert_eq!(folder.warnings.len(), 2);
+    assert_eq!(folder.warnings[0], "groundtruth.txt: 2 of 5 lines are no pose");
 }
 
 #[test]

@@ -67,20 +67,25 @@ pub(super) enum Command {
             driftlab run configs/maps/building.toml --world floor.yaml --json"
     )]
     Run(RunArgs),
-    /// Feed the maps of a config with a log of a real robot
+    /// Feed the maps of a config with a log of a real robot or a depth camera
     #[command(
-        long_about = "Feed the maps of a config with a log of a real robot.\n\n\
+        long_about = "Feed the maps of a config with a log of a real robot or a depth camera.\n\n\
             LOG is an MCAP file or a bag of ROS 1 with laser scans and odometry, a text log of CARMEN, or a \
             JSON map of scans, packed with gzip or not. Keyframes, steps and recognised places are made from \
             the scans; nothing else is known. A log of an exported run holds its pose graph, which is then \
             taken as it is.\n\n\
-            The folder holds what a run's does, and odometry.tum, tracked.tum and optimised.tum (the sensor at \
+            Or LOG is a folder of depth images with poses (7-Scenes, TUM RGB-D, or numbered files), or an MCAP \
+            file of such: the maps of space of the config are fed, and each is asked for the way to the nearest \
+            frontier. The folder holds the maps as labelled meshes and the poses of the camera, beside the \
+            recording and the numbers.\n\n\
+            Of a log with scans the folder holds what a run's does, and odometry.tum, tracked.tum and optimised.tum (the sensor at \
             every scan), graph.g2o, and closures.txt, which --places takes.",
         after_help = "Examples:\n  \
             driftlab replay my.log configs/logs/laser.toml --out recordings/mine\n  \
             driftlab replay drive.mcap configs/logs/laser.toml --set 'replay.scan_topic=\"/front\"'\n  \
             driftlab replay intel.log configs/logs/laser.toml --relations intel.relations --json\n  \
-            driftlab replay my.log configs/logs/laser.toml --places seen.txt"
+            driftlab replay my.log configs/logs/laser.toml --places seen.txt\n  \
+            driftlab replay scene/seq-01 configs/3d/depth_folder.toml --set replay3d.every=10"
     )]
     Replay(ReplayArgs),
     /// Do the same work over many inputs and leave a table
@@ -177,7 +182,7 @@ pub(super) struct RunArgs {
 pub(super) struct ReplayArgs {
     /// The log
     pub(super) log: PathBuf,
-    /// The experiment: a TOML file with a table [replay]; its world is not asked
+    /// The experiment: a TOML file with a table [replay], or [replay3d] for depth images; its world is not asked
     pub(super) config: PathBuf,
     /// Set one value of the config, as a TOML value; may be given again
     #[arg(long = "set", value_name = "PATH=VALUE")]

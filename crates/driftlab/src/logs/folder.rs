@@ -5,8 +5,9 @@ use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
+use formats::depth::DepthPixels;
 use formats::depth_file::{self, DepthFile, DepthFileOptions};
-use formats::depth_folder::{self, DepthFolder, Listing};
+use formats::depth_folder::{self, DepthFolder, DepthFrame, Listing};
 use formats::log::{
     CameraMessage, Content, ContentKind, DepthMessage, Header, Message, PoseMessage, Stamp, Topic,
     plain,
@@ -29,6 +30,9 @@ pub(super) struct FolderLog {
     topics: Vec<Topic>,
     waiting: Vec<Message>,
     frames: [Arc<str>; 2],
+    /// Why the first image that cannot be read cannot, as long as none was.
+    refused: Option<LogError>,
+    was_read: bool,
 }
 
 impl FolderLog {
@@ -48,7 +52,16 @@ impl FolderLog {
             topics.push(Topic::new("/camera", "intrinsics", encoding, Some(ContentKind::Camera)));
         }
         let frames = [plain::MAP.into(), CAMERA.into()];
-        Ok(Self { path: path.to_owned(), folder, next: 0, topics, waiting: Vec::new(), frames })
+        Ok(Self {
+            path: path.to_owned(),
+            folder,
+            next: 0,
+            topics,
+            waiting: Vec::new(),
+            frames,
+            refused: None,
+            was_read: false,
+        })
     }
 
     pub(super) fn topics(&self) -> &[Topic] {
@@ -76,10 +89,29 @@ impl FolderLog {
         Ok(message)
     }
 
-    /// Reads the next image; its messages wait in reverse order.
+    /// Reads the next image that can be read; its messages wait in reverse order.
+    ///
+    /// One that cannot be is left out, and told: a log that broke off has its last one cut. It is an error where
+    /// none of the folder can be.
     fn open_next(&mut self) -> Result<(), LogError> {
-        let Some(frame) = self.folder.frames.get(self.next) else { return Ok(()) };
-        self.next += 1;
+        while let Some(frame) = self.folder.frames.get(self.next).cloned() {
+            self.next += 1;
+            match self.pixels(&frame) {
+                Ok(pixels) => {
+                    self.was_read = true;
+                    self.push(&frame, pixels);
+                    return Ok(());
+                }
+                Err(error) => {
+                    self.folder.warnings.push(format!("left out: {error}"));
+                    self.refused.get_or_insert(error);
+                }
+            }
+        }
+        self.refused.take().filter(|_| !self.was_read).map_or(Ok(()), Err)
+    }
+
+    fn pixels(&self, frame: &DepthFrame) -> Result<DepthPixels, LogError> {
         let path = self.path.join(&frame.file);
         let bytes = fs::read(&path)
             .map_err(|reason| LogError::Unreadable { path: path.clone(), reason })?;
@@ -88,10 +120,17 @@ impl FolderLog {
         let options = DepthFileOptions { units_per_metre, size: None };
         let read = depth_file::read(&bytes, extension, &options)
             .map_err(|error| LogError::Format { path: path.clone(), error })?;
-        let DepthFile::Image(pixels) = read else {
-            let what = "found a cloud, expected a depth image".to_owned();
-            return Err(LogError::Nothing { path, what });
-        };
+        match read {
+            DepthFile::Image(pixels) => Ok(pixels),
+            DepthFile::Cloud(_) => {
+                let what = "found a cloud, expected a depth image".to_owned();
+                Err(LogError::Nothing { path, what })
+            }
+        }
+    }
+
+    /// The messages of an image, in reverse order.
+    fn push(&mut self, frame: &DepthFrame, pixels: DepthPixels) {
         let logged = Stamp::from_secs(frame.stamp_secs);
         let [map, camera] = &self.frames;
         let header = |frame: &Arc<str>| Header::new(logged, Arc::clone(frame));
@@ -113,7 +152,6 @@ impl FolderLog {
         }
         let frame_from_body = frame.map_from_camera;
         push(1, Content::Pose(PoseMessage { header: header(map), frame_from_body }));
-        Ok(())
     }
 }
 

@@ -7,8 +7,8 @@
 //! | numbered | `depth_N.*`, `N_depth.*`, `depth/N.*` | `pose.txt`, `poses.txt` or `trajectory.txt`, one line for each in order | `camera-intrinsics.txt` | 1000, or 5000 for `N_depth.*` |
 //!
 //! All poses are those of the camera in one global frame, z ahead, y down. A pose that is not one (some
-//! 7-Scenes poses are NaN) leaves its image out; so does an image of a TUM folder that no pose is near
-//! enough to in time. Both are told. A folder without any poses has its images at one place, told too.
+//! 7-Scenes poses are NaN) leaves its image out; so does a pose file of its own that cannot be understood, and
+//! in a TUM folder a time that no pose is near enough to. All are told. A folder without any poses has its images at one place, told too.
 //!
 //! Nothing here opens a file: the caller lists names and reads bytes.
 

@@ -1,5 +1,7 @@
 //! Poses and cameras as such folders write them.
 
+use std::ops::RangeInclusive;
+
 use nalgebra::{Matrix3, Rotation3, UnitQuaternion, Vector3};
 use pose::Se3;
 use sensing::Camera;
@@ -12,8 +14,12 @@ use crate::pose_graph::Lexer;
 /// How far the columns of a rotation may be from unit length and square to each other.
 const SQUARE: f64 = 1e-2;
 
-/// The numbers of a file, line by line.
-fn rows(bytes: &[u8], expected: &str) -> Result<Vec<Vec<f64>>, FormatError> {
+/// The numbers of a file, line by line; each line has as many as are wanted.
+fn rows(
+    bytes: &[u8],
+    counts: RangeInclusive<usize>,
+    expected: &str,
+) -> Result<Vec<Vec<f64>>, FormatError> {
     refuse_binary(bytes, expected)?;
     let bytes = with_line_feeds(bytes);
     let mut lexer = Lexer::new(&bytes);
@@ -23,19 +29,26 @@ fn rows(bytes: &[u8], expected: &str) -> Result<Vec<Vec<f64>>, FormatError> {
         while !lexer.at_end_of_line() {
             row.push(lexer.any_float(expected)?);
         }
+        if !counts.contains(&row.len()) {
+            return Err(lexer.unexpected(expected));
+        }
         rows.push(row);
     }
     Ok(rows)
 }
 
+/// The numbers of a square matrix of a file, `size` by `size`.
+fn square(bytes: &[u8], size: usize, expected: &str) -> Result<Vec<Vec<f64>>, FormatError> {
+    let rows = rows(bytes, size..=size, expected)?;
+    match rows.len() == size {
+        true => Ok(rows),
+        false => Err(Lexer::new(&with_line_feeds(bytes)).unexpected(expected)),
+    }
+}
+
 /// A pose as a matrix of 4 by 4; `None` where its numbers are not those of a pose.
 pub(super) fn matrix(bytes: &[u8]) -> Result<Option<Se3>, FormatError> {
-    const EXPECTED: &str = "a pose, 4 lines of 4 numbers";
-    let rows = rows(bytes, EXPECTED)?;
-    let bytes = with_line_feeds(bytes);
-    if rows.len() != 4 || rows.iter().any(|row| row.len() != 4) {
-        return Err(Lexer::new(&bytes).unexpected(EXPECTED));
-    }
+    let rows = square(bytes, 4, "a pose, 4 lines of 4 numbers")?;
     let rotation = Matrix3::from_fn(|row, column| rows[row][column]);
     let translation = Vector3::from_fn(|row, _| rows[row][3]);
     let is_square = (rotation.transpose() * rotation - Matrix3::identity()).amax() <= SQUARE
@@ -52,38 +65,35 @@ pub(super) fn matrix(bytes: &[u8]) -> Result<Option<Se3>, FormatError> {
 /// line whose numbers are not those of a pose.
 pub(super) fn lines(bytes: &[u8]) -> Result<Vec<Option<Se3>>, FormatError> {
     const EXPECTED: &str = "a pose `tx ty tz qx qy qz qw`, with or without a time before";
-    refuse_binary(bytes, EXPECTED)?;
-    let bytes = with_line_feeds(bytes);
-    let mut lexer = Lexer::new(&bytes);
-    let mut poses = Vec::new();
-    while lexer.next_line() {
-        let mut row = Vec::new();
-        while !lexer.at_end_of_line() {
-            row.push(lexer.any_float(EXPECTED)?);
-        }
-        let row = match row.len() {
-            7 => &row[..],
-            8 => &row[1..],
-            _ => return Err(lexer.unexpected(EXPECTED)),
-        };
-        let rotation = nalgebra::Quaternion::new(row[6], row[3], row[4], row[5]);
-        let translation = Vector3::new(row[0], row[1], row[2]);
-        let good =
-            translation.iter().all(|x| x.is_finite()) && (rotation.norm() - 1.0).abs() <= SQUARE;
-        let pose = || Se3::new(translation, UnitQuaternion::new_normalize(rotation));
-        poses.push(good.then(pose));
-    }
-    Ok(poses)
+    let rows = rows(bytes, 7..=8, EXPECTED)?;
+    Ok(rows.iter().map(|row| pose(&row[row.len() - 7..])).collect())
+}
+
+/// Times with their poses, `time tx ty tz qx qy qz qw` in each line; `None` for a line whose numbers are not
+/// those of a pose.
+pub(super) fn timed(bytes: &[u8]) -> Result<Vec<(f64, Option<Se3>)>, FormatError> {
+    let rows = rows(bytes, 8..=8, "a pose `time tx ty tz qx qy qz qw`")?;
+    Ok(rows.iter().map(|row| (row[0], pose(&row[1..]).filter(|_| row[0].is_finite()))).collect())
+}
+
+/// The pose that seven numbers say, `tx ty tz qx qy qz qw`.
+fn pose(row: &[f64]) -> Option<Se3> {
+    let &[x, y, z, i, j, k, w] = row else { return None };
+    let translation = Vector3::new(x, y, z);
+    let rotation = nalgebra::Quaternion::new(w, i, j, k);
+    let good = translation.iter().all(|x| x.is_finite()) && (rotation.norm() - 1.0).abs() <= SQUARE;
+    good.then(|| Se3::new(translation, UnitQuaternion::new_normalize(rotation)))
 }
 
 /// A camera as a matrix of 3 by 3.
 pub(super) fn camera(bytes: &[u8]) -> Result<Camera, FormatError> {
     const EXPECTED: &str = "a camera, 3 lines of 3 numbers: fx 0 cx, 0 fy cy, 0 0 1";
-    let rows = rows(bytes, EXPECTED)?;
-    let good = rows.len() == 3 && rows.iter().all(|row| row.len() == 3);
-    let camera = good.then(|| Camera::new(rows[0][0], rows[1][1], rows[0][2], rows[1][2]));
-    let bytes = with_line_feeds(bytes);
-    camera.filter(Camera::is_usable).ok_or_else(|| Lexer::new(&bytes).unexpected(EXPECTED))
+    let rows = square(bytes, 3, EXPECTED)?;
+    let camera = Camera::new(rows[0][0], rows[1][1], rows[0][2], rows[1][2]);
+    match camera.is_usable() {
+        true => Ok(camera),
+        false => Err(Lexer::new(&with_line_feeds(bytes)).unexpected(EXPECTED)),
+    }
 }
 
 /// Files and their times: `time name` in each line.

@@ -1,5 +1,7 @@
 //! A pose file beside each image.
 
+use std::collections::BTreeSet;
+
 use super::names::number;
 use super::{DepthFolder, DepthFolderError, DepthFrame, FolderKind, Listing, poses};
 
@@ -20,18 +22,23 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<Option<DepthFolder>, DepthFo
         units_per_metre: 1000.0,
         warnings: Vec::new(),
     };
+    let names: BTreeSet<&str> = listing.names.iter().map(String::as_str).collect();
     for (at, (_, file)) in images.into_iter().enumerate() {
         let pose_file = file.replace(".depth.png", ".pose.txt");
-        if !listing.has(&pose_file) {
+        if !names.contains(pose_file.as_str()) {
             folder.warnings.push(format!("{file}: left out, there is no {pose_file}"));
             continue;
         }
-        match listing.parsed(&pose_file, poses::matrix)? {
-            Some(map_from_camera) => {
+        let why = match listing.parsed(&pose_file, poses::matrix) {
+            Ok(Some(map_from_camera)) => {
                 folder.frames.push(DepthFrame { file, stamp_secs: at as f64, map_from_camera });
+                continue;
             }
-            None => folder.warnings.push(format!("{file}: left out, {pose_file} is no pose")),
-        }
+            Ok(None) => format!("{pose_file} is no pose"),
+            // One bad file of many is no reason to refuse the others.
+            Err(error) => error.to_string(),
+        };
+        folder.warnings.push(format!("{file}: left out, {why}"));
     }
     Ok(Some(folder))
 }

@@ -4,7 +4,7 @@ use pose::Se3;
 
 use super::names::{folder_of, image_stem};
 use super::{DepthFolder, DepthFolderError, DepthFrame, FolderKind, Listing, poses};
-use crate::tum::{self, Trajectory};
+use crate::tum::Trajectory;
 
 /// The poses.
 const POSES: &str = "groundtruth.txt";
@@ -27,7 +27,8 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<Option<DepthFolder>, DepthFo
         in_depth.filter_map(|name| Some((time(name)?, name.clone()))).collect()
     };
     images.sort_by(|a, b| a.0.total_cmp(&b.0).then_with(|| a.1.cmp(&b.1)));
-    let trajectory = in_order(listing.parsed(POSES, tum::read)?);
+    let listed = listing.parsed(POSES, poses::timed)?;
+    let trajectory = in_order(&listed);
     let mut folder = DepthFolder {
         kind: FolderKind::Tum,
         frames: Vec::with_capacity(images.len()),
@@ -35,6 +36,10 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<Option<DepthFolder>, DepthFo
         units_per_metre: 5000.0,
         warnings: Vec::new(),
     };
+    let none = listed.len() - trajectory.poses.len();
+    if none > 0 {
+        folder.warnings.push(format!("{POSES}: {none} of {} lines are no pose", listed.len()));
+    }
     for (stamp_secs, file) in images {
         match at_time(&trajectory, stamp_secs) {
             Some(map_from_camera) => {
@@ -48,14 +53,13 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<Option<DepthFolder>, DepthFo
     Ok(Some(folder))
 }
 
-/// The same poses by time.
-fn in_order(trajectory: Trajectory) -> Trajectory {
-    let mut order: Vec<usize> = (0..trajectory.poses.len()).collect();
-    order.sort_by(|&a, &b| trajectory.stamps_secs[a].total_cmp(&trajectory.stamps_secs[b]));
-    Trajectory {
-        stamps_secs: order.iter().map(|&at| trajectory.stamps_secs[at]).collect(),
-        poses: order.iter().map(|&at| trajectory.poses[at]).collect(),
-    }
+/// The poses of the lines that hold one, by time.
+fn in_order(listed: &[(f64, Option<Se3>)]) -> Trajectory {
+    let timed = listed.iter().filter_map(|(time, pose)| Some((*time, (*pose)?)));
+    let mut timed: Vec<(f64, Se3)> = timed.collect();
+    timed.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let (stamps_secs, poses) = timed.into_iter().unzip();
+    Trajectory { stamps_secs, poses }
 }
 
 /// The pose at a time, between the poses before and after it where both are near.

@@ -12,7 +12,7 @@ use super::super::out::Out;
 use super::super::progress::Bar;
 use super::super::run::wrote;
 use super::super::table::table;
-use crate::config::Loaded;
+use crate::config::{Loaded, Replay3d};
 use crate::replay::{DepthFrames, DepthReplayed, depth_files, replay_depth};
 use crate::run::{Input, RunFolder, to_json};
 
@@ -30,6 +30,14 @@ pub(super) fn replay(
         return Err(Failure::Input(anyhow!("{name}: found it with maps of space, {why}")));
     }
     let mut config = loaded.config.clone();
+    if config.replay3d.is_none() {
+        let far_m = Replay3d::default().far_m;
+        let what = "depth images are taken by its defaults";
+        out.note(&format!(
+            "note: {}: no table [replay3d], {what}: what was not read ends at {far_m} m",
+            loaded.path.display()
+        ));
+    }
     config.sweep = None;
     let bytes = fs::read(&loaded.path).map_err(Failure::work)?;
     let inputs = vec![Input::new(&loaded.path, &bytes)];
@@ -44,6 +52,13 @@ pub(super) fn replay(
         out.note(&format!("warning: {}: {warning}", args.log.display()));
     }
     let replayed = replayed?;
+    for (name, map) in &replayed.metrics.maps {
+        let odd =
+            [(map.refused_looks, "refused"), (map.map_invalid, "not taken in as it should be")];
+        for (count, what) in odd.into_iter().filter(|(count, _)| *count > 0) {
+            out.note(&format!("warning: {name}: {count} images {what}, as the recording tells"));
+        }
+    }
     for (name, content) in depth_files(&config, &replayed, inputs)? {
         folder.write(name, &content)?;
     }

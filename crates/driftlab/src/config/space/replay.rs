@@ -33,6 +33,10 @@ pub struct Replay3d {
     /// An image without a pose so near in time is left out, seconds.
     #[schemars(range(min = 0.0, max = 3600.0))]
     pub pose_within_secs: f64,
+    /// An image with fewer readings is left out: what was not read counts as free up to `far_m`, so that one of a
+    /// covered lens would free all that is before it. 0 takes every image.
+    #[schemars(range(max = 1_000_000))]
+    pub least_readings: u32,
     /// Radius of the body for which the way to the nearest frontier is sought, metres.
     #[schemars(range(min = 0.0, max = 100.0))]
     pub body_radius_m: f64,
@@ -61,6 +65,7 @@ impl Default for Replay3d {
             reduce: Reduction::InverseDepth,
             intrinsics: [525.0, 525.0, 319.5, 239.5],
             pose_within_secs: 0.05,
+            least_readings: 32,
             body_radius_m: 0.1,
         }
     }

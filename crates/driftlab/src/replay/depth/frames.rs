@@ -16,6 +16,9 @@ use crate::logs::LogSource;
 /// Images that may wait for the pose after them.
 const MOST_WAITING: usize = 64;
 
+/// A pose farther from the origin of the log is none, metres.
+const FARTHEST_M: f64 = 1e6;
+
 /// One depth image and where it was taken.
 #[derive(Clone, Debug, PartialEq)]
 pub struct DepthFrame {
@@ -29,13 +32,14 @@ pub struct DepthFrame {
 
 /// The depth images of a folder or a recording, read as they are asked for.
 ///
-/// An image gets the pose that is nearest in time; one without a pose near enough is left out, and told.
-/// The first topic with depth images and the first with poses are taken.
+/// An image gets the pose that is nearest in time; one without a pose near enough, or with too few readings, is
+/// left out, and told. The first topic with depth images and the first with poses are taken.
 #[derive(Debug)]
 pub struct DepthFrames {
     path: PathBuf,
     source: LogSource,
     settings: Replay3d,
+    /// In order of time.
     poses: Vec<(f64, Se3)>,
     waiting: VecDeque<(f64, DepthPixels)>,
     camera: Option<CameraMessage>,
@@ -43,6 +47,7 @@ pub struct DepthFrames {
     seen: u64,
     ended: bool,
     without_pose: u64,
+    without_readings: u64,
     guessed: bool,
     told: Vec<String>,
 }
@@ -65,6 +70,7 @@ impl DepthFrames {
             seen: 0,
             ended: false,
             without_pose: 0,
+            without_readings: 0,
             guessed: false,
             told: Vec::new(),
         })
@@ -94,7 +100,18 @@ impl DepthFrames {
             let within = self.settings.pose_within_secs;
             all.push(format!("{} images without a pose within {within} s", self.without_pose));
         }
+        if self.without_readings > 0 {
+            let least = self.settings.least_readings;
+            let at = "`replay3d.least_readings`";
+            let count = self.without_readings;
+            all.push(format!("{count} images left out, with less than {least} readings ({at})"));
+        }
         all
+    }
+
+    /// Images that were left out since they have no pose near enough, or too few readings.
+    pub fn left_out(&self) -> u64 {
+        self.without_pose + self.without_readings
     }
 
     /// The share that was read; 0 where that is not known.
@@ -131,8 +148,14 @@ impl DepthFrames {
                 if *self.topics[1].get_or_insert(message.topic) == message.topic =>
             {
                 let stamp_secs = pose.header.stamp.secs();
-                match pose.frame_from_body.is_finite() {
-                    true => self.poses.push((stamp_secs, pose.frame_from_body)),
+                let log_from_camera = pose.frame_from_body;
+                // So far away doubles tell no millimetres apart.
+                let is_near = log_from_camera.translation.amax() <= FARTHEST_M;
+                match log_from_camera.is_finite() && is_near {
+                    true => {
+                        let at = self.poses.partition_point(|(secs, _)| *secs <= stamp_secs);
+                        self.poses.insert(at, (stamp_secs, log_from_camera));
+                    }
                     false => self.told.push(format!("the pose at {stamp_secs:.3} s is none")),
                 }
             }
@@ -158,10 +181,9 @@ impl DepthFrames {
                 return Ok(None);
             }
             let Some((_, pixels)) = self.waiting.pop_front() else { return Ok(None) };
-            let away = |(pose_secs, _): &&(f64, Se3)| (pose_secs - stamp_secs).abs();
-            let nearest = self.poses.iter().min_by(|a, b| away(a).total_cmp(&away(b)));
-            match nearest.filter(|pose| away(pose) <= self.settings.pose_within_secs) {
-                Some(&(_, log_from_camera)) => {
+            match self.pose_at(stamp_secs) {
+                Some(_) if self.has_too_few(&pixels) => self.without_readings += 1,
+                Some(log_from_camera) => {
                     let camera = self.camera_of(&pixels)?;
                     let image = DepthImage::new(pixels.columns, camera, pixels.depths_m);
                     return Ok(Some(DepthFrame { stamp_secs, log_from_camera, image }));
@@ -170,6 +192,23 @@ impl DepthFrames {
             }
         }
         Ok(None)
+    }
+
+    /// The pose that is nearest in time, of two as near the earlier one; `None` where none is near enough.
+    fn pose_at(&self, stamp_secs: f64) -> Option<Se3> {
+        let after = self.poses.partition_point(|(secs, _)| *secs < stamp_secs);
+        let around = &self.poses[after.saturating_sub(1)..(after + 1).min(self.poses.len())];
+        let away = |(pose_secs, _): &&(f64, Se3)| (pose_secs - stamp_secs).abs();
+        let nearest = around.iter().min_by(|a, b| away(a).total_cmp(&away(b)))?;
+        (away(&nearest) <= self.settings.pose_within_secs).then_some(nearest.1)
+    }
+
+    /// Whether an image says too little to be a view: what is missing counts as free up to the far plane, so one
+    /// of a covered lens would free all that lies before it.
+    fn has_too_few(&self, pixels: &DepthPixels) -> bool {
+        let is_read = |depth: &&f32| depth.is_finite() && **depth > 0.0;
+        let readings = pixels.depths_m.iter().filter(is_read).count();
+        (readings as u64) < u64::from(self.settings.least_readings)
     }
 
     /// The camera of an image: that of the log, else that of the config, at the image's size.

@@ -15,6 +15,8 @@ pub struct DepthMetrics {
     pub keyframes: u64,
     /// Depth images of the log.
     pub images: u64,
+    /// Of these, left out: no pose is near enough in time, or there are too few readings.
+    pub left_out: u64,
     /// Distance that the camera was carried, metres.
     pub distance_m: f64,
     /// Each map's result by its name.

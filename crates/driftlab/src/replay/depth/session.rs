@@ -84,7 +84,7 @@ pub fn replay_depth(
         next = frames.next_frame()?;
     }
     let ways = course.end(settings.body_radius_m);
-    let metrics = course.metrics(config, frames.counts().0, &ways);
+    let metrics = course.metrics(config, frames, &ways);
     let mut timing = course.timing(&ways);
     let log_from_vertex = &course.log_from_vertex;
     let meshes = course.sides.iter();
@@ -232,13 +232,14 @@ impl Course {
         asked
     }
 
-    fn metrics(&self, config: &Config, images: u64, asked: &[Asked]) -> DepthMetrics {
+    fn metrics(&self, config: &Config, frames: &DepthFrames, asked: &[Asked]) -> DepthMetrics {
         let maps = self.sides.iter().zip(asked);
         DepthMetrics {
             name: config.name.clone(),
             seed: config.seed,
             keyframes: self.poses.len() as u64,
-            images,
+            images: frames.counts().0,
+            left_out: frames.left_out(),
             distance_m: self.distance_m,
             maps: maps.map(|(side, (map, _))| (side.name.to_owned(), map.clone())).collect(),
         }
