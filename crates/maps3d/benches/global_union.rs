@@ -14,7 +14,9 @@ use std::sync::Arc;
 
 use clock::secs;
 use maps3d::reduce::Stop;
-use maps3d::{ConsolidationEvent, DepthEvent, Look, Map3d, UnionEvent, UnionMap, UnionParams};
+use maps3d::{
+    ConsolidationEvent, DepthEvent, Look, Map3d, PlanEvent, UnionEvent, UnionMap, UnionParams,
+};
 use nalgebra::Vector3;
 use pose::Se3;
 use posegraph::{EdgeKind, PoseGraph};
@@ -110,6 +112,14 @@ impl Probe<UnionEvent<'_>> for Stages {
     fn emit(&mut self, event: UnionEvent<'_>) {
         self.mark(event.variant());
     }
+}
+
+impl Probe<PlanEvent<'_>> for Stages {
+    fn on(&self) -> bool {
+        false
+    }
+
+    fn emit(&mut self, _: PlanEvent<'_>) {}
 }
 
 impl Probe<ConsolidationEvent<'_>> for Stages {

@@ -5,6 +5,7 @@ use solid::{Label, Polyhedron};
 
 use crate::global_union::UnionEvent;
 use crate::image::{FilledImage, Pixel};
+use crate::plan::PlanEvent;
 use crate::relative::ConsolidationEvent;
 use crate::triangulate::{FrontierSquares, ImageMesh};
 
@@ -105,6 +106,7 @@ pub trait Map3dProbe:
     for<'a> Probe<DepthEvent<'a>>
     + for<'a> Probe<ConsolidationEvent<'a>>
     + for<'a> Probe<UnionEvent<'a>>
+    + for<'a> Probe<PlanEvent<'a>>
 {
 }
 
@@ -112,6 +114,30 @@ impl<P> Map3dProbe for P where
     P: for<'a> Probe<DepthEvent<'a>>
         + for<'a> Probe<ConsolidationEvent<'a>>
         + for<'a> Probe<UnionEvent<'a>>
+        + for<'a> Probe<PlanEvent<'a>>
         + ?Sized
 {
+}
+
+/// Hands the events of a view, or of a plan, on to whoever listens to a map.
+pub(crate) struct Relay<'a>(pub &'a mut dyn Map3dProbe);
+
+impl Probe<DepthEvent<'_>> for Relay<'_> {
+    fn on(&self) -> bool {
+        Probe::<DepthEvent<'_>>::on(self.0)
+    }
+
+    fn emit(&mut self, event: DepthEvent<'_>) {
+        self.0.emit(event);
+    }
+}
+
+impl Probe<PlanEvent<'_>> for Relay<'_> {
+    fn on(&self) -> bool {
+        Probe::<PlanEvent<'_>>::on(self.0)
+    }
+
+    fn emit(&mut self, event: PlanEvent<'_>) {
+        self.0.emit(event);
+    }
 }

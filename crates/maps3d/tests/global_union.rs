@@ -5,7 +5,7 @@ use std::f64::consts::FRAC_PI_2;
 
 use maps3d::{
     ConsolidationEvent, DepthEvent, FlightRoute, Hovering, Known, Look, Map3d, Maps3dError,
-    UnionCorrection, UnionEvent, UnionMap, UnionParams,
+    PlanEvent, UnionCorrection, UnionEvent, UnionMap, UnionParams,
 };
 use nalgebra::{Point3, UnitQuaternion, Vector3};
 use pose::Se3;
@@ -189,6 +189,10 @@ impl Probe<UnionEvent<'_>> for Placed {
 
 impl Probe<DepthEvent<'_>> for Placed {
     fn emit(&mut self, _: DepthEvent<'_>) {}
+}
+
+impl Probe<PlanEvent<'_>> for Placed {
+    fn emit(&mut self, _: PlanEvent<'_>) {}
 }
 
 impl Probe<ConsolidationEvent<'_>> for Placed {
@@ -456,6 +460,10 @@ impl Probe<UnionEvent<'_>> for Names {
 
 impl Probe<DepthEvent<'_>> for Names {
     fn emit(&mut self, _: DepthEvent<'_>) {}
+}
+
+impl Probe<PlanEvent<'_>> for Names {
+    fn emit(&mut self, _: PlanEvent<'_>) {}
 }
 
 impl Probe<ConsolidationEvent<'_>> for Names {

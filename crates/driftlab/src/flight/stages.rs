@@ -6,7 +6,7 @@ use std::time::Instant;
 
 use maps3d::global_union::UnionEvent;
 use maps3d::relative::ConsolidationEvent;
-use maps3d::{DepthEvent, Map3dProbe};
+use maps3d::{DepthEvent, Map3dProbe, PlanEvent};
 use probe::Probe;
 use serde::Serialize;
 
@@ -145,6 +145,16 @@ impl<'e> Probe<UnionEvent<'e>> for Heard<'_> {
             _ => None,
         };
         self.hear(stage, |probe| probe.emit(event));
+    }
+}
+
+impl<'e> Probe<PlanEvent<'e>> for Heard<'_> {
+    fn on(&self) -> bool {
+        Probe::<PlanEvent<'e>>::on(self.probe)
+    }
+
+    fn emit(&mut self, event: PlanEvent<'e>) {
+        self.hear(None, |probe| probe.emit(event));
     }
 }
 

@@ -13,8 +13,8 @@ use std::time::Instant;
 
 use explore::{FlightEvent, FlightExplorer, FlightGiveUp, FlightParams};
 use maps3d::{
-    ConsolidationEvent, DepthEvent, Map3d, RelativeMap, RelativeParams, UnionEvent, UnionMap,
-    UnionParams,
+    ConsolidationEvent, DepthEvent, Map3d, PlanEvent, RelativeMap, RelativeParams, UnionEvent,
+    UnionMap, UnionParams,
 };
 use metrics::{FlightWitness, VoxelCoverage, VoxelParams};
 use probe::Probe;
@@ -56,6 +56,14 @@ impl Probe<DepthEvent<'_>> for Told {
     }
 
     fn emit(&mut self, _: DepthEvent<'_>) {}
+}
+
+impl Probe<PlanEvent<'_>> for Told {
+    fn on(&self) -> bool {
+        false
+    }
+
+    fn emit(&mut self, _: PlanEvent<'_>) {}
 }
 
 impl Probe<ConsolidationEvent<'_>> for Told {

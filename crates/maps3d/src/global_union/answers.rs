@@ -2,7 +2,7 @@
 
 use pose::Se3;
 use posegraph::{Manifold, PoseGraph};
-use probe::{EdgeId, Off, Probe, VertexId};
+use probe::{EdgeId, Off, VertexId};
 use solid::Point3;
 
 use super::ask::{clearance, in_sight, knows};
@@ -10,24 +10,12 @@ use super::view::View;
 use super::volumes::Volumes;
 use super::ways::{Wanted, to_frontier};
 use super::{UnionEvent, UnionMap};
+use crate::events::Relay;
 use crate::relative::LocalVolume;
 use crate::{
-    DepthEvent, FlightClearance, FlightRoute, FrontierPatch, Hovering, Known, Look, Map3d,
-    Map3dProbe, MapTally, MapWork, Maps3dError, polyhedron_with,
+    FlightClearance, FlightRoute, FrontierPatch, Hovering, Known, Look, Map3d, Map3dProbe,
+    MapTally, MapWork, Maps3dError, polyhedron_with,
 };
-
-/// Hands the events of a view on.
-struct Relay<'a>(&'a mut dyn Map3dProbe);
-
-impl Probe<DepthEvent<'_>> for Relay<'_> {
-    fn on(&self) -> bool {
-        Probe::<DepthEvent<'_>>::on(self.0)
-    }
-
-    fn emit(&mut self, event: DepthEvent<'_>) {
-        self.0.emit(event);
-    }
-}
 
 impl Map3d for UnionMap {
     fn kind(&self) -> &'static str {
@@ -164,7 +152,7 @@ impl Map3d for UnionMap {
             clearance_m,
             stop_short_m: self.params.stop_short_m,
         };
-        let found = to_frontier(&mut volumes, &from, &wanted);
+        let found = to_frontier(&mut volumes, &from, &wanted, &mut Relay(&mut *probe));
         self.volumes = Some(volumes);
         if let Some((plan, given)) = found {
             self.counts.ways += 1;

@@ -151,6 +151,7 @@ mod tests {
     use solid::Label;
 
     use super::*;
+    use crate::events::Relay;
     use crate::{Map3d, UnionParams};
 
     /// Takes views whose polyhedra are given: what a depth image never gives can be tried.
@@ -196,7 +197,7 @@ mod tests {
         assert!(map.tally().open_m2 > 0.5 * open_m2);
         map.fill(&mut Off);
         let volumes = map.volumes.as_mut().expect("it was filled");
-        let planner = volumes.planner(0.0).expect("sound tetrahedra");
+        let planner = volumes.planner(0.0, &mut Relay(&mut Off)).expect("sound tetrahedra");
         let (from, to) = (Point3::new(-0.5, 0.0, 2.0), Point3::new(2.0, 0.0, 2.5));
         let plan = planner.plan(&from, &crate::Target::Point(to)).expect("both are inside");
         assert!(plan.is_some_and(|plan| plan.path_m < 3.0));

@@ -4,6 +4,7 @@ use solid::{SolidError, Tetrahedra, tetrahedralize};
 
 use super::UnionEvent;
 use super::view::View;
+use crate::events::Relay;
 use crate::{Map3dProbe, Maps3dError, PlanOptions, Planner};
 
 /// The free space of a map as tetrahedra, and a planner over them.
@@ -51,16 +52,23 @@ impl Volumes {
         self.all.iter().map(|one| one.tetrahedra.len()).sum()
     }
 
-    /// A planner for a ball of this radius; made once, as long as the radius stays the same.
+    /// A planner for a ball of this radius; made, and told, once as long as the radius stays the same.
     ///
     /// # Errors
     /// As [`Planner::new`].
-    pub fn planner(&mut self, radius_m: f64) -> Result<&mut Planner, Maps3dError> {
+    pub fn planner(
+        &mut self,
+        radius_m: f64,
+        probe: &mut Relay<'_>,
+    ) -> Result<&mut Planner, Maps3dError> {
         let made = match self.planner.take() {
             Some((known_m, planner)) if known_m == radius_m => planner,
             _ => {
                 let volumes: Vec<&Tetrahedra> = self.all.iter().collect();
-                Planner::new(&volumes, &PlanOptions { radius_m, ..PlanOptions::default() })?
+                let options = PlanOptions { radius_m, ..PlanOptions::default() };
+                let planner = Planner::new(&volumes, &options)?;
+                planner.tell(probe);
+                planner
             }
         };
         Ok(&mut self.planner.insert((radius_m, made)).1)

@@ -6,6 +6,7 @@ use super::ask::clearance;
 use super::places::is_in;
 use super::surface::Surface;
 use super::volumes::Volumes;
+use crate::events::Relay;
 use crate::plan::polyline_m;
 use crate::{FlightClearance, Maps3dError, Plan, Target};
 
@@ -48,11 +49,12 @@ pub(super) struct Wanted<'a> {
 }
 
 /// The plan to the nearest frontier that counts, and the part of its path that keeps clear; `None` where no
-/// way is found to any. Everything is in the frame `map`.
+/// way is found to any. Everything is in the frame `map`. The probe hears of every search.
 pub(super) fn to_frontier(
     volumes: &mut Volumes,
     from: &Point3,
     wanted: &Wanted<'_>,
+    probe: &mut Relay<'_>,
 ) -> Option<(Plan, Vec<Point3>)> {
     let united = volumes.united;
     for [solid, unseen] in ASKED {
@@ -60,16 +62,21 @@ pub(super) fn to_frontier(
         let unseen_m = wanted.clearance_m * unseen;
         let mut blocked: Vec<(Point3, f64)> = Vec::new();
         while blocked.len() < GOALS {
-            let Ok(planner) = volumes.planner(radius_m) else { return None };
+            let Ok(planner) = volumes.planner(radius_m, probe) else { return None };
             planner.set_goals(|space, node| {
                 let face = space.frontier()[node.face as usize];
                 let counts =
                     !united || face.volume > 0 || wanted.faces.binary_search(&face.face).is_ok();
-                counts && !is_in(wanted.given_up, &node.at) && !is_in(&blocked, &node.at)
+                // Round the robot's own place, the tip of its view included, it sees nothing by going there.
+                let is_body = (node.at - from).norm() <= wanted.clearance_m;
+                counts
+                    && !is_body
+                    && !is_in(wanted.given_up, &node.at)
+                    && !is_in(&blocked, &node.at)
             });
             let start = planner.space().entry(from, NEAR_M)?;
             let is_outside = (start - from).norm() > NEAR_M;
-            let plan = match planner.plan(&start, &Target::Frontier) {
+            let plan = match planner.plan_with(&start, &Target::Frontier, probe) {
                 Ok(Some(plan)) => plan,
                 // Nearer to something than it should be: the robot leaves as it came.
                 Err(Maps3dError::TooNear { distance_m, .. })
