@@ -149,10 +149,19 @@ fn the_recording_opens_with_depth_image_map_and_way() {
         all.iter().map(|one| one[key].as_str().expect("a name").to_owned()).collect()
     };
     let (events, entities) = (list("events", "variant"), list("entities", "path"));
-    for event in ["Looked", "Prepared", "Joined", "United", "RoutePlanned"] {
+    for event in ["Looked", "Prepared", "Joined", "United", "RoutePlanned", "Expanded", "Finished"]
+    {
         assert!(events.contains(&event.to_owned()), "{event}: {events:?}");
     }
-    for part in ["/global_union/belief/union/map", "/relative/camera/depth"] {
+    for part in [
+        "/global_union/belief/union/map",
+        "/global_union/belief/union/operand",
+        "/global_union/belief/union/search/tetrahedra",
+        "/global_union/belief/union/search/graph",
+        "/global_union/belief/union/search/closed",
+        "/global_union/belief/union/search/path",
+        "/relative/camera/depth",
+    ] {
         assert!(entities.contains(&part.to_owned()), "{part}: {entities:?}");
     }
     assert!(!entities.iter().any(|path| path.contains("/truth/")), "{entities:?}");

@@ -32,13 +32,15 @@ pub enum Family {
     Correction,
     /// Intersections, unions, loops, the region that comes out, the dual graph.
     Polygons,
+    /// Tetrahedra, the dual graph over them, what A* opened and closed, the cone programmes.
+    Tetrahedra,
     /// True pose, view, coverage, and the plots.
     Truth,
 }
 
 impl Family {
     /// All families.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Sensing,
         Self::PoseGraph,
         Self::Consolidation,
@@ -46,6 +48,7 @@ impl Family {
         Self::Planner,
         Self::Correction,
         Self::Polygons,
+        Self::Tetrahedra,
         Self::Truth,
     ];
 
@@ -59,6 +62,7 @@ impl Family {
             Self::Planner => "planner",
             Self::Correction => "correction",
             Self::Polygons => "polygons",
+            Self::Tetrahedra => "tetrahedra",
             Self::Truth => "truth",
         }
     }

@@ -115,6 +115,9 @@ pub struct Every {
     /// Unions of polygons, and what comes out.
     #[schemars(range(min = 1))]
     pub polygons: u32,
+    /// Tetrahedra and the dual graph that ways are planned through, what A* opened and closed.
+    #[schemars(range(min = 1))]
+    pub tetrahedra: u32,
     /// True pose, coverage cells and the plots.
     #[schemars(range(min = 1))]
     pub truth: u32,
@@ -130,6 +133,7 @@ impl Default for Every {
             planner: 1,
             correction: 1,
             polygons: 1,
+            tetrahedra: 1,
             truth: 1,
         }
     }

@@ -1,9 +1,9 @@
 //! Several listeners of one flying robot: one for each of its maps.
 
 use explore::FlightEvent;
-use maps3d::DepthEvent;
 use maps3d::global_union::UnionEvent;
 use maps3d::relative::ConsolidationEvent;
+use maps3d::{DepthEvent, PlanEvent};
 use metrics::VoxelCoverage;
 use probe::Probe;
 use worlds::World3d;
@@ -11,7 +11,7 @@ use worlds::World3d;
 use super::{FlightSeen, FlightWatch};
 use crate::run::{AtWork, Fan, of_the_map_at_work};
 
-of_the_map_at_work!(DepthEvent, ConsolidationEvent, UnionEvent);
+of_the_map_at_work!(DepthEvent, ConsolidationEvent, UnionEvent, PlanEvent);
 
 impl<W: for<'a> Probe<FlightEvent<'a>>> Probe<FlightEvent<'_>> for Fan<W> {
     fn on(&self) -> bool {

@@ -59,6 +59,7 @@ pub(crate) fn every_of(every: &config::Every) -> Every {
         planner,
         correction,
         polygons,
+        tetrahedra,
         truth,
     } = *every;
     Every::STEP
@@ -69,6 +70,7 @@ pub(crate) fn every_of(every: &config::Every) -> Every {
         .with(Family::Planner, planner)
         .with(Family::Correction, correction)
         .with(Family::Polygons, polygons)
+        .with(Family::Tetrahedra, tetrahedra)
         .with(Family::Truth, truth)
 }
 

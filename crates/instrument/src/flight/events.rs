@@ -1,9 +1,9 @@
 //! Every event in order: a line of text each, and what it draws.
 
 use explore::FlightEvent;
-use maps3d::DepthEvent;
 use maps3d::global_union::UnionEvent;
 use maps3d::relative::ConsolidationEvent;
+use maps3d::{DepthEvent, PlanEvent};
 use probe::Probe;
 
 use super::views::{self, ClosedFaces};
@@ -18,7 +18,8 @@ impl Probe<FlightEvent<'_>> for FlightRecorder {
     fn emit(&mut self, event: FlightEvent<'_>) {
         // The graph is kept whole, whatever is thinned.
         match event {
-            FlightEvent::VertexAdded { odom_from_vertex, .. } => {
+            FlightEvent::VertexAdded { vertex, odom_from_vertex } => {
+                self.here = vertex;
                 self.odom_from_vertex.push(odom_from_vertex);
                 self.graph.vertex(self.world_from_start * odom_from_vertex);
                 self.graph_grew = true;
@@ -27,6 +28,7 @@ impl Probe<FlightEvent<'_>> for FlightRecorder {
                 self.graph.edge(kind, a, b);
                 self.graph_grew = true;
             }
+            FlightEvent::LegRepeated { to, .. } => self.here = to,
             _ => {}
         }
         let family = family_of(&event);
@@ -43,7 +45,9 @@ impl Probe<FlightEvent<'_>> for FlightRecorder {
         }
         if family == Family::Planner {
             self.planned = true;
-            planner::draw(&mut self.ink, &event);
+            let vertex = planner::vertex_of(&event).unwrap_or(self.here);
+            let drawn_from_vertex = self.drawn_from_vertex(vertex);
+            planner::draw(&mut self.ink, &event, &drawn_from_vertex);
         }
     }
 }
@@ -133,5 +137,26 @@ impl Probe<UnionEvent<'_>> for FlightRecorder {
             self.ink.say(family.name(), event.variant(), format_args!("{line}"));
         }
         union::draw(&mut self.ink, &event);
+    }
+}
+
+impl Probe<PlanEvent<'_>> for FlightRecorder {
+    fn on(&self) -> bool {
+        self.level == Level::Full && self.takes(Family::Tetrahedra)
+    }
+
+    fn emit(&mut self, event: PlanEvent<'_>) {
+        if !Probe::<PlanEvent<'_>>::on(self) || !self.searches.count(&event) {
+            return;
+        }
+        self.next_event();
+        if self.around_robot
+            && let PlanEvent::Joined { .. } = event
+        {
+            let drawn_from_vertex = self.drawn_from_vertex(self.here);
+            self.searches.place(&mut self.ink, &drawn_from_vertex);
+        }
+        let line = self.searches.tell(&mut self.ink, &event);
+        self.ink.say(Family::Tetrahedra.name(), event.variant(), format_args!("{line}"));
     }
 }

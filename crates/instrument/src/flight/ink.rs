@@ -80,6 +80,13 @@ pub(super) fn lines(strips: &[Vec<Point3>], colour: Rgba, points: f32) -> LineSt
         .with_radii([rerun::Radius::new_ui_points(points)])
 }
 
+/// Segments of one colour; `points` is their width on the screen.
+pub(super) fn segments(segments: &[[Point3; 2]], colour: Rgba, points: f32) -> LineStrips3D {
+    LineStrips3D::new(segments.iter().map(|ends| ends.each_ref().map(short)))
+        .with_colors([Color::from_u32(colour)])
+        .with_radii([rerun::Radius::new_ui_points(points)])
+}
+
 /// Points with a colour each; `points` is their size on the screen.
 pub(super) fn dots(at: &[Point3], colours: &[Rgba], points: f32) -> Points3D {
     Points3D::new(at.iter().map(short))

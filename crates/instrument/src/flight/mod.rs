@@ -9,6 +9,7 @@
 //! | `graph` | vertices and edges by odometry |
 //! | `union` | the united map |
 //! | `views` | the views of the relative map around the robot |
+//! | `search` | tetrahedra, the dual graph, A*, cone programmes |
 //! | `planner` | what is to be looked at, from where, and the way there |
 //! | `events` | every event in order, a line each |
 
@@ -21,6 +22,7 @@ mod page;
 mod planner;
 mod recorder;
 mod recording;
+mod search;
 mod truth;
 mod union;
 mod views;

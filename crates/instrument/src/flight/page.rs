@@ -47,7 +47,11 @@ pub(super) fn about(options: &FlightOptions) -> String {
     if options.level == Level::Full {
         page.push_str(
             "Each event stands in the log, in order: from the depth image to the polyhedron, the map, \
-             and the plan.\n",
+             and the plan. In the tab `tetrahedra and A*`, where a way is planned through tetrahedra: grey lines are these, thin blue ones the \
+             dual graph, orange points its nodes on frontier; green lines lead to what A* closed so far; then \
+             the corridor in pale grey, the way through its nodes in purple, the polyline of the cone programme \
+             in red, and in bold green the path as it was verified. `driftlab mesh plan` steps one search node \
+             by node.\n",
         );
     }
     page.push_str("\n## Colours\n\n| colour | means |\n|---|---|\n");

@@ -1,9 +1,11 @@
-//! What is to be looked at, from where, and the way there; drawn in the frame of a vertex.
+//! What is to be looked at, from where, and the way there.
 
 use explore::FlightEvent;
 use explore::flight::Target;
 use geometry::Point3;
 use maps3d::FlightRoute;
+use pose::Se3;
+use probe::VertexId;
 
 use super::ink::{Ink, dots, lines};
 use crate::palette;
@@ -11,32 +13,46 @@ use crate::palette;
 /// The best places that are drawn of those that were scored.
 const MOST_SCORED: usize = 200;
 
-/// Draws what an event of the planner is about under `belief/planner`.
-pub(super) fn draw(ink: &mut Ink, event: &FlightEvent<'_>) {
+/// The vertex in whose frame an event of the planner speaks.
+pub(super) fn vertex_of(event: &FlightEvent<'_>) -> Option<VertexId> {
+    match event {
+        FlightEvent::ViewpointsScored { at, .. } | FlightEvent::ViewpointChosen { at, .. } => {
+            Some(*at)
+        }
+        FlightEvent::RoutePlanned { hovering, .. } => Some(hovering.vertex),
+        FlightEvent::FrontierGivenUp { owner, .. } => Some(*owner),
+        _ => None,
+    }
+}
+
+/// Draws what an event of the planner is about under `belief/planner`; its vertex lies at `drawn_from_vertex`.
+pub(super) fn draw(ink: &mut Ink, event: &FlightEvent<'_>, drawn_from_vertex: &Se3) {
+    let drawn = |place: &Point3| drawn_from_vertex.transform(place);
     match event {
         FlightEvent::ViewpointsScored { targets, scored, .. } => {
-            let at: Vec<Point3> = targets.iter().map(|target: &Target| target.at).collect();
+            let at: Vec<Point3> = targets.iter().map(|target: &Target| drawn(&target.at)).collect();
             ink.draw("belief/planner/targets", &dots(&at, &[palette::FRONTIER], 4.0));
             let shown = &scored[..scored.len().min(MOST_SCORED)];
             let best = shown.first().map_or(1.0, |(_, score)| score.max(1e-9));
-            let places: Vec<Point3> = shown.iter().map(|(place, _)| *place).collect();
+            let places: Vec<Point3> = shown.iter().map(|(place, _)| drawn(place)).collect();
             let colours: Vec<_> =
                 shown.iter().map(|(_, score)| palette::ramp(1.0 - score / best)).collect();
             ink.draw("belief/planner/viewpoints", &dots(&places, &colours, 2.5));
         }
         FlightEvent::ViewpointChosen { place_in_vertex, .. } => {
-            ink.draw("belief/planner/goal", &dots(&[*place_in_vertex], &[palette::GOAL], 6.0));
-            let way = vec![Point3::origin(), *place_in_vertex];
+            let place = drawn(place_in_vertex);
+            ink.draw("belief/planner/goal", &dots(&[place], &[palette::GOAL], 6.0));
+            let way = vec![drawn(&Point3::origin()), place];
             ink.draw("belief/planner/way", &lines(&[way], palette::ROUTE, 2.0));
         }
         FlightEvent::RoutePlanned { hovering, route: FlightRoute::Fly(points), .. } => {
-            let body = hovering.vertex_from_body;
+            let body = *drawn_from_vertex * hovering.vertex_from_body;
             let mut way = vec![Point3::from(body.translation)];
             way.extend(points.iter().map(|point| body.transform(point)));
             ink.draw("belief/planner/way", &lines(&[way], palette::ROUTE, 2.0));
         }
         FlightEvent::FrontierGivenUp { place_in_vertex, .. } => {
-            let mark = dots(&[*place_in_vertex], &[palette::GIVEN_UP], 6.0);
+            let mark = dots(&[drawn(place_in_vertex)], &[palette::GIVEN_UP], 6.0);
             ink.draw("belief/planner/given_up", &mark);
         }
         _ => {}

@@ -9,6 +9,7 @@ use worlds::World3d;
 use super::FlightOptions;
 use super::graph::Graph;
 use super::ink::{Ink, placed};
+use super::search::Searches;
 use super::truth::{Truth, body};
 use super::views::{ClosedFaces, Views};
 use super::{looks, planner, union};
@@ -50,6 +51,9 @@ pub struct FlightRecorder {
     pub(super) views: Views,
     pub(super) closed: Option<ClosedFaces>,
     pub(super) planned: bool,
+    pub(super) searches: Searches,
+    /// Where the robot hovers.
+    pub(super) here: VertexId,
 }
 
 impl FlightRecorder {
@@ -69,6 +73,8 @@ impl FlightRecorder {
             views: Views::default(),
             closed: None,
             planned: false,
+            searches: Searches::new(FlightOptions::is_around_robot(name)),
+            here: VertexId(0),
         }
     }
 
@@ -114,6 +120,7 @@ impl FlightRecorder {
             planner::wipe(&mut self.ink);
             self.planned = false;
         }
+        self.searches.wipe(&mut self.ink);
     }
 
     /// Goes to the next event of the timeline `event`.
@@ -147,6 +154,7 @@ impl FlightRecorder {
         if self.around_robot {
             self.ink.plot("views_in_scope", self.views.in_scope() as f64);
         }
+        self.here = end.hovering.vertex;
         let drawn_from_body =
             self.drawn_from_vertex(end.hovering.vertex) * end.hovering.vertex_from_body;
         self.ink.draw("belief/robot", &placed(&drawn_from_body));

@@ -5,12 +5,23 @@ use maps3d::global_union::UnionEvent;
 use pose::Se3;
 use solid::Polyhedron;
 
-use super::ink::{Faces, Ink, lines, placed};
+use super::ink::{Faces, Ink, dots, lines, placed, segments};
 use crate::{Family, palette};
 
 /// Draws what an event of the united map is about under `belief/union`, in the frame `map`.
 pub(super) fn draw(ink: &mut Ink, event: &UnionEvent<'_>) {
     match event {
+        UnionEvent::Placed { operand, .. } => {
+            ink.draw("belief/union/operand", &segments(&sides(operand), palette::SCOPE, 0.6));
+        }
+        UnionEvent::Sorted { patches, .. } => {
+            let at: Vec<Point3> =
+                patches.iter().flat_map(|patch| &patch.points).map(|point| point.in_body).collect();
+            ink.draw("belief/union/frontier", &dots(&at, &[palette::FRONTIER], 3.0));
+        }
+        UnionEvent::GivenUp { place, .. } => {
+            ink.draw("belief/union/given_up", &dots(&[*place], &[palette::GIVEN_UP], 5.0));
+        }
         UnionEvent::United { map, .. }
         | UnionEvent::Cleaned { map, .. }
         | UnionEvent::Rebuilt { map, .. } => draw_map(ink, map),
@@ -25,6 +36,14 @@ pub(super) fn draw(ink: &mut Ink, event: &UnionEvent<'_>) {
         }
         _ => {}
     }
+}
+
+/// The sides of all faces, each once.
+fn sides(mesh: &Polyhedron) -> Vec<[Point3; 2]> {
+    let sides = mesh.faces().iter().flat_map(|&[a, b, c]| [[a, b], [b, c], [c, a]]);
+    // Of a closed surface each comes once in either direction.
+    let once = sides.filter(|[a, b]| a < b);
+    once.map(|ends| ends.map(|corner| mesh.vertices()[corner as usize])).collect()
 }
 
 fn draw_map(ink: &mut Ink, map: &Polyhedron) {

@@ -39,7 +39,7 @@ fn map_row(
     // From a corner one sees as far as the place is wide, and the robot may look any way.
     let reach_m = (0.8 * (high - low).norm()).clamp(3.0, 7.0);
     let corner = Point3::new(reach_m, reach_m, 1.4);
-    let around = eye_over(&-corner, &corner);
+    let around = if options.has_truth { eye_over(&-corner, &corner) } else { whole.clone() };
     let is_around = FlightOptions::is_around_robot(map);
     let space = |layout: &mut Layout<'_>, name: &str, eye: &EyeControls3D, rules: &[&str]| {
         layout.view(&View {
@@ -62,12 +62,34 @@ fn map_row(
         false if options.has_truth => ("belief, from the true start", &whole),
         false => ("belief, from the first image", &whole),
     };
-    let believed = space(layout, title, sight, &["+ $map/belief/**", "- $map/belief/look/**"])?;
+    let believed = space(
+        layout,
+        title,
+        sight,
+        &[
+            "+ $map/belief/**",
+            "- $map/belief/look/**",
+            "- $map/belief/union/operand/**",
+            "- $map/belief/union/search/**",
+            "- $map/belief/search/**",
+        ],
+    )?;
     let look = space(
         layout,
         "the last view",
         if is_around { &around } else { &whole },
-        &["+ $map/belief/look/**", "+ $map/belief/robot/**", "+ $map/belief/planner/**"],
+        &[
+            "+ $map/belief/look/**",
+            "+ $map/belief/union/operand/**",
+            "+ $map/belief/robot/**",
+            "+ $map/belief/planner/**",
+        ],
+    )?;
+    let search = space(
+        layout,
+        "tetrahedra and A*",
+        sight,
+        &["+ $map/belief/union/search/**", "+ $map/belief/search/**", "+ $map/belief/robot/**"],
     )?;
     let graph_title =
         if options.has_truth { "pose graph by odometry" } else { "pose graph by the log's poses" };
@@ -89,11 +111,12 @@ fn map_row(
     let shares = vec![1.0; above.len()];
     let above = layout.container(ContainerKind::Horizontal, &above, &shares)?;
     if options.maps.len() == 1 {
+        let tabs = layout.container(ContainerKind::Tabs, &[graph, search], &[])?;
         let below =
-            layout.container(ContainerKind::Horizontal, &[image, look, graph], &[0.8, 1.0, 1.0])?;
+            layout.container(ContainerKind::Horizontal, &[image, look, tabs], &[0.8, 1.0, 1.0])?;
         return layout.container(ContainerKind::Vertical, &[above, below], &[1.6, 1.0]);
     }
-    let below = layout.container(ContainerKind::Tabs, &[image, look, graph], &[])?;
+    let below = layout.container(ContainerKind::Tabs, &[image, look, graph, search], &[])?;
     layout.container(ContainerKind::Horizontal, &[above, below], &[2.2, 1.0])
 }
 

@@ -2,7 +2,7 @@
 //!
 //! `draw.rs` turns what an event holds into lines and points, `record.rs` is the listener.
 
-mod draw;
+pub(crate) mod draw;
 mod record;
 
 pub use record::{PLAN_EVENTS, PlanRecording, PlanRecordingOptions};

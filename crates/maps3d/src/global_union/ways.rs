@@ -56,6 +56,19 @@ pub(super) fn to_frontier(
     wanted: &Wanted<'_>,
     probe: &mut Relay<'_>,
 ) -> Option<(Plan, Vec<Point3>)> {
+    // Round the robot's own place, the tip of its view included, it sees nothing by going there: the last choice.
+    let apart_m = LEAST_M.max(wanted.clearance_m);
+    [apart_m, 0.0].into_iter().find_map(|apart_m| to_goal(volumes, from, apart_m, wanted, probe))
+}
+
+/// The same to frontier that is farther than this from where it starts.
+fn to_goal(
+    volumes: &mut Volumes,
+    from: &Point3,
+    apart_m: f64,
+    wanted: &Wanted<'_>,
+    probe: &mut Relay<'_>,
+) -> Option<(Plan, Vec<Point3>)> {
     let united = volumes.united;
     for [solid, unseen] in ASKED {
         let mut radius_m = wanted.clearance_m * solid;
@@ -67,10 +80,8 @@ pub(super) fn to_frontier(
                 let face = space.frontier()[node.face as usize];
                 let counts =
                     !united || face.volume > 0 || wanted.faces.binary_search(&face.face).is_ok();
-                // Round the robot's own place, the tip of its view included, it sees nothing by going there.
-                let is_body = (node.at - from).norm() <= wanted.clearance_m;
                 counts
-                    && !is_body
+                    && (node.at - from).norm() >= apart_m
                     && !is_in(wanted.given_up, &node.at)
                     && !is_in(&blocked, &node.at)
             });

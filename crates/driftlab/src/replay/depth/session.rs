@@ -69,8 +69,11 @@ pub fn replay_depth(
         let found = format!("found {images} depth images and {poses} poses, none for an image");
         return Err(frames.refused(&format!("{found}; expected depth images with poses")));
     };
-    let reach = Point3::new(settings.far_m, settings.far_m, 0.5 * settings.far_m);
-    let recording = create_recording(config, recording, about, (-reach, reach), false)?;
+    // The first camera looks along x.
+    let far_m = settings.far_m;
+    let low = Point3::new(-0.1 * far_m, -0.5 * far_m, -0.4 * far_m);
+    let high = Point3::new(0.9 * far_m, 0.5 * far_m, 0.3 * far_m);
+    let recording = create_recording(config, recording, about, (low, high), false)?;
     let sides = maps.into_iter().map(|(name, map)| {
         let mut recorder = recording.recorder(name);
         recorder.without_place();
