@@ -37,7 +37,7 @@ level = "off"
 "#;
 
 /// The names under a map of `metrics.json` that scripts rely on.
-const METRIC_NAMES: [&str; 14] = [
+const METRIC_NAMES: [&str; 16] = [
     "believed_complete",
     "coverage",
     "false_completion",
@@ -52,6 +52,8 @@ const METRIC_NAMES: [&str; 14] = [
     "path_shortening",
     "map_faces",
     "odometry_error_m",
+    "free_iou",
+    "free_wrong_share",
 ];
 
 /// A box with its walls facing inwards, as OBJ.
@@ -77,6 +79,9 @@ fn the_same_flight_gives_the_same_bytes_at_any_level() {
         assert!(map.contains_key(name), "metrics.json: maps.relative.{name}");
     }
     assert!(map["coverage"].as_f64().is_some_and(|share| share > 0.3), "{}", map["coverage"]);
+    // The map sees what the robot sees, and hardly more.
+    assert!(map["free_iou"].as_f64().is_some_and(|share| share > 0.3), "{}", map["free_iou"]);
+    assert!(map["free_wrong_share"].as_f64().is_some_and(|share| share < 0.05));
     // What the run resolved to is a config of the same run.
     let again = desk.driftlab(&["run", "one/run.toml", "--out", "again"]);
     assert_eq!(code(&again), 0, "{}", stderr(&again));

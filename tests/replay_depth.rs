@@ -115,7 +115,10 @@ fn what_is_wrong_with_single_images_leaves_these_out_and_is_told() {
 #[test]
 fn a_config_without_a_table_for_it_says_what_is_taken() {
     let desk = desk();
-    desk.put("b.toml", "name = \"b\"\n[map3d.voxels]\ncell_m = 0.1\n[record]\nlevel = \"off\"\n");
+    desk.put(
+        "b.toml",
+        "name = \"b\"\n[world3d.rooms]\n[map3d.voxels]\n[record]\nlevel = \"off\"\n",
+    );
     let output = desk.driftlab(&["replay", "walk", "b.toml", "--out", "r"]);
     let said = stderr(&output);
     assert_eq!(code(&output), 0, "{said}");

@@ -15,6 +15,6 @@ pub use accuracy::Accuracy;
 pub use coverage::{CellShape, Coverage, CoverageParams, Rule};
 pub use error::MetricsError;
 pub use verdict::Verdict;
-pub use voxels::{FlightWitness, VoxelCoverage, VoxelParams};
+pub use voxels::{FlightWitness, VoxelAccuracy, VoxelCoverage, VoxelParams};
 pub use witness::Witness;
 pub use worlds::{Tally, View};

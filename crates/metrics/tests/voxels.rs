@@ -52,6 +52,30 @@ fn the_box_next_door_does_not_count() {
 }
 
 #[test]
+fn free_space_is_held_against_the_truth() {
+    let world = two_boxes();
+    let params = VoxelParams { cell_m: 0.5, ..VoxelParams::default() };
+    let coverage =
+        VoxelCoverage::new(&world, &CameraParams::default(), 0.2, params).expect("voxels");
+    let judge = |most: usize, is_free: fn(&Point3) -> bool| {
+        coverage.accuracy(&world, most, &mut |at| Some(is_free(at)))
+    };
+    // 512 voxels of the near box are free, as many of the other are out of reach, 128 lie between them.
+    let right = judge(10_000, |at| at.x < 4.0);
+    assert_eq!((right.free_iou, right.wrong_share, right.asked), (1.0, 0.0, 1152));
+    let all = judge(10_000, |_| true);
+    assert_eq!((all.free_iou, all.wrong_share), (512.0 / 1152.0, 640.0 / 1152.0));
+    let none = judge(10_000, |_| false);
+    assert_eq!((none.free_iou, none.wrong_share), (0.0, 0.0));
+    let half = judge(10_000, |at| at.x < 2.0);
+    assert_eq!((half.free_iou, half.wrong_share), (0.5, 0.0));
+    let near = coverage.accuracy(&world, 10_000, &mut |at| (at.x < 4.0).then_some(at.x > 2.0));
+    assert_eq!((near.free_iou, near.wrong_share, near.asked), (0.5, 0.0, 512));
+    let few = judge(200, |at| at.x < 4.0);
+    assert!(few.free_iou == 1.0 && (150..=200).contains(&few.asked), "{few:?}");
+}
+
+#[test]
 fn what_is_seen_is_in_sight() {
     let world =
         Arc::new(rooms(&Rooms3dParams { columns: 1, ..Rooms3dParams::default() }).expect("good"));

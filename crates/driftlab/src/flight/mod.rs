@@ -4,10 +4,12 @@
 //! |---|---|
 //! | `experiment`, `place` | from a config to a place of space with a start |
 //! | `maps`, `stages`, `timed`, `drive` | the maps of one robot, what they cost, and its run to its end |
+//! | `rider`, `accuracy` | what comes of one map: rows, sums, free space against the truth |
 //! | `watch`, `fan`, `record` | who looks on: a recording, or nobody |
 //! | `session` | all robots of an experiment |
 //! | `report`, `steps` | the files of a run |
 
+mod accuracy;
 mod drive;
 mod experiment;
 mod fan;
@@ -15,6 +17,7 @@ mod maps;
 mod place;
 mod record;
 mod report;
+mod rider;
 mod session;
 mod stages;
 mod steps;

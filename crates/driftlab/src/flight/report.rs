@@ -72,6 +72,11 @@ pub struct FlightMetrics {
     pub corrections: u64,
     /// How often the map could not take a view in as it should.
     pub map_invalid: u64,
+    /// Intersection over union of the free space that the map believes in at the end and the true one, at voxels asked
+    /// from the vertex that is nearest to each, and no farther than 2 m.
+    pub free_iou: f64,
+    /// Of the voxels that the map takes for free there, the share that is not.
+    pub free_wrong_share: f64,
     /// Paths that were planned through tetrahedra.
     pub paths: u64,
     /// Their lengths through centroids, summed, metres.

@@ -28,6 +28,7 @@ impl Default for VoxelParams {
 pub struct VoxelCoverage {
     params: VoxelParams,
     lattice: Lattice,
+    free: Vec<bool>,
     counts: Vec<bool>,
     first_seen_m: Vec<f64>,
     /// Voxels that count and were not seen yet, ascending.
@@ -88,6 +89,7 @@ impl VoxelCoverage {
             first_seen_sum_m: 0.0,
             newly_seen: Vec::new(),
             lattice,
+            free,
             counts,
             unseen,
         })
@@ -171,6 +173,11 @@ impl VoxelCoverage {
     /// Whether a voxel counts: free, and the camera could see it.
     pub fn counts(&self, index: usize) -> bool {
         self.counts.get(index).copied().unwrap_or(false)
+    }
+
+    /// Whether a voxel is free and hangs together with what the robot reaches, whether the camera could see it or not.
+    pub fn is_free(&self, index: usize) -> bool {
+        self.free.get(index).copied().unwrap_or(false)
     }
 
     /// The judgement, were the run to end here.

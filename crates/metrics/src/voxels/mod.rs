@@ -9,12 +9,15 @@
 //!    the nearest places first and fewer of the far ones.
 //! 4. A look *sees* the voxels whose centre lies in its true view volume.
 //!
-//! Coverage is the share of the voxels that count and were seen.
+//! Coverage is the share of the voxels that count and were seen. What a map takes voxels for is held against the truth
+//! at those that count and at those that are not free (`accuracy.rs`).
 
+mod accuracy;
 mod coverage;
 mod lattice;
 mod sight;
 mod witness;
 
+pub use accuracy::VoxelAccuracy;
 pub use coverage::{VoxelCoverage, VoxelParams};
 pub use witness::FlightWitness;
