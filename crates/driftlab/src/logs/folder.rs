@@ -30,8 +30,8 @@ pub(super) struct FolderLog {
     topics: Vec<Topic>,
     waiting: Vec<Message>,
     frames: [Arc<str>; 2],
-    /// Why the first image that cannot be read cannot, as long as none was.
-    refused: Option<LogError>,
+    /// Why images cannot be read, as long as none was.
+    refused: Vec<LogError>,
     was_read: bool,
 }
 
@@ -59,7 +59,7 @@ impl FolderLog {
             topics,
             waiting: Vec::new(),
             frames,
-            refused: None,
+            refused: Vec::new(),
             was_read: false,
         })
     }
@@ -99,16 +99,23 @@ impl FolderLog {
             match self.pixels(&frame) {
                 Ok(pixels) => {
                     self.was_read = true;
+                    self.tell_refused();
                     self.push(&frame, pixels);
                     return Ok(());
                 }
-                Err(error) => {
-                    self.folder.warnings.push(format!("left out: {error}"));
-                    self.refused.get_or_insert(error);
-                }
+                Err(error) => self.refused.push(error),
             }
         }
-        self.refused.take().filter(|_| !self.was_read).map_or(Ok(()), Err)
+        self.tell_refused();
+        if self.refused.is_empty() { Ok(()) } else { Err(self.refused.swap_remove(0)) }
+    }
+
+    /// Once an image was read, those that cannot be are no more than warnings.
+    fn tell_refused(&mut self) {
+        if self.was_read {
+            let refused = self.refused.drain(..).map(|error| format!("left out: {error}"));
+            self.folder.warnings.extend(refused);
+        }
     }
 
     fn pixels(&self, frame: &DepthFrame) -> Result<DepthPixels, LogError> {
