@@ -4,7 +4,8 @@
 //!
 //! `cargo bench -p solid --bench pairs -- FILE...` (OFF, OBJ, STL); what is no closed 2-manifold is told
 //! and left out. Runs alternate, their mean counts; seconds are those of the processor, which the system
-//! tells in steps of some milliseconds.
+//! tells in steps of some milliseconds, so that small meshes take many runs. Neither side's seconds have a look at
+//! the result in them but what the boolean itself has.
 
 mod clock;
 mod files;
@@ -28,7 +29,10 @@ const ALL: [Operation; 4] = [
     Operation::Difference,
     Operation::SymmetricDifference,
 ];
-const RUNS: usize = 8;
+/// Seconds that the runs of one operation take at least, by each: far more than a step of the clock.
+const RUN_SECS: f64 = 0.25;
+/// Runs of one operation at least, and at most.
+const RUNS: [usize; 2] = [8, 2000];
 /// Points on the surface of each operand.
 const SAMPLES: usize = 40_000;
 
@@ -198,12 +202,15 @@ fn main() {
         for operation in ALL {
             let (mut theirs, mut ours) = (0.0, 0.0);
             let mut found = Polyhedron::empty();
-            for _ in 0..RUNS {
-                theirs += secs(|| engine(&a, &b, operation)).1 / RUNS as f64;
+            let mut runs = 0;
+            while runs < RUNS[0] || (theirs < RUN_SECS && runs < RUNS[1]) {
+                theirs += secs(|| engine(&a, &b, operation)).1;
                 let (mesh, took) = secs(|| boolean(&a, &b, operation, &Options::default()));
-                ours += took / RUNS as f64;
+                ours += took;
                 found = mesh.expect("sound operands");
+                runs += 1;
             }
+            (theirs, ours) = (theirs / runs as f64, ours / runs as f64);
             let sum = &mut sums[usize::from(operation == Operation::SymmetricDifference)];
             *sum = [sum[0] + theirs, sum[1] + ours];
             let volume = oracle(&a, &b, operation);

@@ -4,11 +4,13 @@ use std::collections::{HashMap, HashSet};
 use std::hash::{BuildHasherDefault, Hasher};
 
 use super::jitter::mixed;
+use crate::bvh::Aabb;
+use crate::validity::meets_itself_near;
 use crate::{Point3, Polyhedron};
 
 /// Numbers made one number: nobody chooses them so that they fall together.
 #[derive(Default)]
-struct Mixing(u64);
+pub(super) struct Mixing(u64);
 
 impl Hasher for Mixing {
     fn write(&mut self, bytes: &[u8]) {
@@ -30,30 +32,11 @@ impl Hasher for Mixing {
     }
 }
 
-type Mixed = BuildHasherDefault<Mixing>;
+pub(super) type Mixed = BuildHasherDefault<Mixing>;
 
 /// A number for a place; one zero, whatever its sign.
-fn key(p: &Point3) -> u64 {
+pub(super) fn key(p: &Point3) -> u64 {
     (0..3).map(|i| (p[i] + 0.0).to_bits()).fold(0, |sum, bits| mixed(sum ^ bits))
-}
-
-/// The faces of two differences, laid side by side, at vertices that neither an operand nor the other difference
-/// has, ascending. O(n), expected.
-///
-/// Both should have the same vertices along the curve where the surfaces meet. Where the engine left one out
-/// of one of them the other touches it.
-pub(super) fn unmatched(mesh: &Polyhedron, operands: &[&Polyhedron]) -> Vec<u32> {
-    let mut known: HashSet<u64, Mixed> = HashSet::with_hasher(Mixed::default());
-    let given = operands.iter().flat_map(|operand| operand.vertices()).map(key);
-    known.extend(given);
-    let mut alone: HashMap<u64, bool, Mixed> = HashMap::with_hasher(Mixed::default());
-    let keys: Vec<u64> = mesh.vertices().iter().map(key).collect();
-    for key in keys.iter().filter(|key| !known.contains(key)) {
-        alone.entry(*key).and_modify(|alone| *alone = false).or_insert(true);
-    }
-    let is_alone = |&v: &u32| alone.get(&keys[v as usize]) == Some(&true);
-    let all = mesh.faces().iter().enumerate();
-    all.filter(|(_, face)| face.iter().any(is_alone)).map(|(face, _)| face as u32).collect()
 }
 
 /// The faces of a result that no operand has as they are, ascending: those along the curve where surfaces
@@ -110,4 +93,17 @@ pub(super) fn thin(mesh: &Polyhedron) -> Vec<u32> {
         mesh.scaled_normal(face).norm_squared() <= longest * (THIN * reach_m).powi(2)
     };
     (0..mesh.faces().len()).filter(is_thin).map(|face| face as u32).collect()
+}
+
+/// Whether one of the pairs of faces of a result that meet does so where faces of an operand meet.
+pub(super) fn is_inherited(
+    mesh: &Polyhedron,
+    crossed: &[[u32; 2]],
+    operands: [&Polyhedron; 2],
+) -> bool {
+    crossed.iter().any(|pair| {
+        let [a, b] = pair.map(|face| Aabb::around(mesh.corners(face as usize)));
+        let both = Aabb { low: a.low.sup(&b.low), high: a.high.inf(&b.high) };
+        operands.iter().any(|operand| meets_itself_near(operand, &both))
+    })
 }

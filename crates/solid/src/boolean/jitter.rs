@@ -75,3 +75,23 @@ pub(super) fn grown(mesh: &Polyhedron, seed: u64, by_m: f64) -> Polyhedron {
     let (_, faces, labels, origins) = mesh.clone().into_parts();
     Polyhedron::from_sound_parts(vertices, faces, labels, origins)
 }
+
+/// What is tried in turn where a jitter is asked for: that many times as far, by another chance each time.
+/// Layers that another jitter left, as thin as this one, are passed sooner by a smaller one.
+const TIMES: [f64; 12] = [1.0, 1.0, 0.3, 2.0, 0.1, 4.0, 0.03, 8.0, 20.0, 50.0, 100.0, 1000.0];
+
+/// What is tried in turn where none is asked for and faces are in one plane up to rounding: that many times
+/// what is rounding, at most [`JITTER_M`], or what is rounding where that is more.
+const ROUNDINGS: [f64; 7] = [4.0, 4.0, 16.0, 64.0, 256.0, 1024.0, 4096.0];
+
+/// How far the second operand is moved, in the order tried, metres: for a jitter that is asked for, or for 0 where
+/// none is.
+pub(super) fn distances(asked_m: f64, rounding_m: f64) -> Vec<f64> {
+    if asked_m > 0.0 {
+        return TIMES.map(|times| times * asked_m).to_vec();
+    }
+    let most_m = JITTER_M.max(4.0 * rounding_m);
+    let mut all = ROUNDINGS.map(|times| (times * rounding_m).min(most_m)).to_vec();
+    all.retain(|&jitter_m| jitter_m > 0.0);
+    all
+}

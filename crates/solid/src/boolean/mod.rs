@@ -3,8 +3,8 @@
 //! | step | file |
 //! |---|---|
 //! | 1. faces are numbered: one number for each label, or for each label and origin | `tags.rs` |
-//! | 2. where that is asked for, or faces are coplanar up to rounding and the plain result is not sound, the faces of the second operand are moved a little, so that none is coplanar with one of the first; otherwise where that result meets itself, too | `jitter.rs`, `trials.rs` |
-//! | 3. an engine combines the operands and gives each face the number of the one it is part of; where it leaves a fold, two sheets on each other, another way to the same solid is taken | `kernel.rs`, `manifold.rs`, `attempt.rs` |
+//! | 2. where that is asked for, or faces are coplanar up to rounding and the plain result is not sound, the faces of the second operand are moved a little, so that none is coplanar with one of the first; otherwise where that result meets itself, too, unless it does so where an operand does | `jitter.rs`, `trials.rs`, `compare.rs` |
+//! | 3. an engine combines the operands and gives each face the number of the one it is part of; where it leaves a fold, two sheets on each other, another way to the same solid is taken; of two differences each gets the vertices that the other has on the curve where surfaces meet | `kernel.rs`, `manifold.rs`, `attempt.rs`, `matching.rs` |
 //! | 4. numbers become labels and origins again; parts without volume and flat faces go | `leaves.rs` |
 //! | 5. a frontier face is cut along the borders of what obstacle faces of the operands, looking the same way, cover of it; edges and faces are divided where vertices lie on them; pieces of frontier that coincide with obstacle become obstacle | `covered.rs`, `touching.rs`, `coincide.rs`, `surgery.rs` |
 //! | 6. slivers go, where that is asked for ([`clean`](crate::clean)) | `combine.rs` |
@@ -12,8 +12,10 @@
 //!
 //! Operands in general position, whose surfaces only pass through each other, need none of what steps 3 to 5
 //! do about contacts (`contacts.rs`). Every result is looked at for faces that meet, as far as it is new
-//! (`changed.rs`): in general position the pieces that are so thin that rounding may turn them, and corners on
-//! the curve that one of two differences has and the other has not; otherwise all that no operand has.
+//! (`changed.rs`): in general position the pieces that are so thin that rounding may turn them, and what was
+//! divided at corners that one of two differences had and the other had not; otherwise all that no operand has.
+//! Where faces meet a box with faces of an operand that meet, nothing else is tried: the operand met itself there
+//! already. That takes O(n) for each of a few pairs.
 //!
 //! **Engine.** [`ManifoldKernel`] is `manifold-rust`, its exact engine by name: a port of Manifold,
 //! which decides intersections by symbolic perturbation and so always gives a 2-manifold. Geometry is
@@ -45,6 +47,7 @@ mod attempt;
 mod changed;
 mod coincide;
 mod combine;
+mod compare;
 mod contacts;
 mod covered;
 mod events;
@@ -52,6 +55,7 @@ mod jitter;
 mod kernel;
 mod leaves;
 mod manifold;
+mod matching;
 mod surgery;
 mod tags;
 mod touching;

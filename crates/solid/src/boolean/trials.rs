@@ -3,37 +3,25 @@
 use probe::{Off, Probe};
 
 use super::attempt::{apart, attempt, failed};
-use super::changed::{changed, thin, unmatched};
+use super::changed::{changed, is_inherited, thin};
 use super::combine::{labelled, refused, settled};
-use super::contacts::{Contacts, are_layered, contacts, rounding_m};
-use super::jitter::{JITTER_M, grown, mixed};
+use super::contacts::{Contacts, contacts, rounding_m};
+use super::jitter::{distances, grown, mixed};
 use super::leaves::tidied;
+use super::matching::matched;
 use super::tags::Tags;
 use super::{BooleanEvent, Kernel, Operation, Options};
-use crate::validity::{any_is_crossed, flat_faces};
+use crate::validity::{crossed, flat_faces};
 use crate::{Polyhedron, SolidError, crossings};
 
-/// What is tried in turn where a jitter is asked for: that many times as far, by another chance each time.
-/// Layers that another jitter left, as thin as this one, are passed sooner by a smaller one.
-const TIMES: [f64; 12] = [1.0, 1.0, 0.3, 2.0, 0.1, 4.0, 0.03, 8.0, 20.0, 50.0, 100.0, 1000.0];
-
-/// What is tried in turn where none is asked for and faces are in one plane up to rounding: that many times
-/// what is rounding, at most [`JITTER_M`], or what is rounding where that is more.
-const ROUNDINGS: [f64; 7] = [4.0, 4.0, 16.0, 64.0, 256.0, 1024.0, 4096.0];
+/// So many pairs of faces that meet are looked at.
+const MOST_CROSSED: usize = 16;
 
 /// Faces coincide within so many times the jitter at least.
 const COINCIDENT_JITTERS: f64 = 10.0;
 
-/// So many times as far a move passes the layers that others left.
-const PAST_LAYERS: f64 = 8.0;
-
 /// So many times the jitter parts by that what is left of two operands that touch is moved to meet.
 const JOINING: f64 = 4.0;
-
-/// By so many times the jitter and the area of both operands volumes may differ.
-const SAME_VOLUME: f64 = 16.0;
-/// By this share of their sum areas may differ.
-const SAME_AREA: f64 = 1e-6;
 
 /// One result of the engine.
 pub(super) struct Trial {
@@ -45,8 +33,14 @@ pub(super) struct Trial {
     pub(super) jitter_m: f64,
     /// Whether contacts were looked after.
     pub(super) contact: bool,
-    /// Whether nothing meets that should not.
-    sound: bool,
+    /// Faces that meet where they should not, in pairs, or are flat, twice: some of them where there are any.
+    crossed: Vec<[u32; 2]>,
+}
+
+impl Trial {
+    pub(super) fn is_sound(&self) -> bool {
+        self.crossed.is_empty()
+    }
 }
 
 /// The trial that is the result, and how many others there were.
@@ -57,14 +51,14 @@ pub(super) struct Taken {
 
 /// Two operands, and all that can be tried on them.
 pub(super) struct Trials<'a, K> {
-    kernel: &'a K,
-    operands: [&'a Polyhedron; 2],
-    operation: Operation,
-    options: &'a Options,
-    looking: &'a [(&'a Polyhedron, f64)],
-    contacts: Contacts,
+    pub(super) kernel: &'a K,
+    pub(super) operands: [&'a Polyhedron; 2],
+    pub(super) operation: Operation,
+    pub(super) options: &'a Options,
+    pub(super) looking: &'a [(&'a Polyhedron, f64)],
+    pub(super) contacts: Contacts,
     /// Whether results are kept as they were before step 5.
-    tell: bool,
+    pub(super) tell: bool,
 }
 
 impl<'a, K: Kernel> Trials<'a, K> {
@@ -89,37 +83,43 @@ impl<'a, K: Kernel> Trials<'a, K> {
     /// Where faces of both operands are in one plane but for rounding, the engine takes each pair of them for
     /// what it is: results may be sound and yet have leaves, or lack a part. There the plain result has
     /// to have the volume and the areas of one with the second operand moved, or that one is taken. Where
-    /// none is sound the first is the result: whoever checks it is told.
+    /// none is sound the first is the result, and where it meets itself as an operand does none is tried: whoever
+    /// checks it is told.
     pub(super) fn taken(&self) -> Result<Taken, SolidError> {
         let contact = self.contacts != Contacts::None;
         let mut again = 0;
         let mut first = None;
         if self.options.jitter_m == 0.0 {
             let plain = self.trial(0.0, self.options.seed, contact)?;
-            if plain.sound && self.contacts != Contacts::Rounded {
+            if plain.is_sound() && self.contacts != Contacts::Rounded {
                 return Ok(Taken { trial: plain, again });
             }
-            if !plain.sound && !contact {
+            if self.inherits(&plain) {
+                return Ok(Taken { trial: plain, again });
+            }
+            if !plain.is_sound() && !contact {
                 again += 1;
                 let tidied = self.trial(0.0, self.options.seed, true)?;
-                if tidied.sound {
+                if tidied.is_sound() {
                     return Ok(Taken { trial: tidied, again });
                 }
             }
             first = Some(plain);
         }
-        for (turn, jitter_m) in self.jitters().into_iter().enumerate() {
+        for (turn, jitter_m) in
+            distances(self.options.jitter_m, rounding_m(self.operands)).into_iter().enumerate()
+        {
             let seed = match turn {
                 0 => self.options.seed,
                 _ => mixed(self.options.seed.wrapping_add(turn as u64)),
             };
             let moved = self.trial(jitter_m, seed, true)?;
-            if moved.sound {
+            if moved.is_sound() {
                 let (moved, more) = self.past_layers(moved, seed)?;
                 again += more;
                 let Some(plain) = first else { return Ok(Taken { trial: moved, again }) };
                 let area_m2 = self.area_m2(&moved)?;
-                if plain.sound && self.agree(&plain, &moved, area_m2) {
+                if plain.is_sound() && self.agree(&plain, &moved, area_m2) {
                     return Ok(Taken { trial: plain, again });
                 }
                 again += 1;
@@ -127,10 +127,13 @@ impl<'a, K: Kernel> Trials<'a, K> {
                     && !self.agree(&moved, &moved, area_m2)
                 {
                     let joined = self.joined(jitter_m, seed)?;
-                    if joined.sound && self.agree(&joined, &moved, area_m2) {
+                    if joined.is_sound() && self.agree(&joined, &moved, area_m2) {
                         return Ok(Taken { trial: joined, again: again + 1 });
                     }
                 }
+                return Ok(Taken { trial: moved, again });
+            }
+            if first.is_none() && self.inherits(&moved) {
                 return Ok(Taken { trial: moved, again });
             }
             again += 1;
@@ -144,40 +147,22 @@ impl<'a, K: Kernel> Trials<'a, K> {
         Ok(Taken { trial, again })
     }
 
-    /// The trial, or a sound one with the second operand moved past the layers that earlier moves left, where
-    /// that has less area: between such a layer and a face that was moved as far a sheet may be left. And how
-    /// many trials that took.
-    fn past_layers(&self, moved: Trial, seed: u64) -> Result<(Trial, usize), SolidError> {
-        let [a, b] = self.operands;
-        let past_m = PAST_LAYERS * moved.jitter_m;
-        if !are_layered(a, b, past_m) {
-            return Ok((moved, 0));
-        }
-        let other = self.trial(past_m, seed, true)?;
-        let (area_m2, less_m2) =
-            (moved.mesh.area_by_label().total_m2(), other.mesh.area_by_label().total_m2());
-        let off_m3 = (moved.mesh.volume_m3() - other.mesh.volume_m3()).abs();
-        let better = other.sound
-            && less_m2 < area_m2 - SAME_AREA * self.scale_m2()
-            && off_m3 <= SAME_VOLUME * past_m * self.scale_m2();
-        Ok((if better { other } else { moved }, 1))
-    }
-
-    /// How far the second operand is moved, in the order tried, metres.
-    fn jitters(&self) -> Vec<f64> {
-        if self.options.jitter_m > 0.0 {
-            return TIMES.map(|times| times * self.options.jitter_m).to_vec();
-        }
-        let rounding_m = rounding_m(self.operands);
-        let least_m = 4.0 * rounding_m;
-        let mut all =
-            ROUNDINGS.map(|times| (times * rounding_m).min(JITTER_M.max(least_m))).to_vec();
-        all.retain(|&jitter_m| jitter_m > 0.0);
-        all
+    /// Whether faces of a trial meet where faces of an operand do: then so do those of every other.
+    fn inherits(&self, trial: &Trial) -> bool {
+        !trial.is_sound()
+            && (is_inherited(&trial.mesh, &trial.crossed, self.operands) || {
+                let all = crossings(&trial.mesh, MOST_CROSSED).into_iter().map(|pair| pair.faces);
+                is_inherited(&trial.mesh, &all.collect::<Vec<_>>(), self.operands)
+            })
     }
 
     /// One trial, with the second operand moved by `jitter_m`.
-    fn trial(&self, jitter_m: f64, seed: u64, contact: bool) -> Result<Trial, SolidError> {
+    pub(super) fn trial(
+        &self,
+        jitter_m: f64,
+        seed: u64,
+        contact: bool,
+    ) -> Result<Trial, SolidError> {
         let [a, b] = self.operands;
         let mut tags = Tags::new(self.options.provenance);
         let (tags_a, tags_b) = (tags.of(a), tags.of(b));
@@ -190,13 +175,18 @@ impl<'a, K: Kernel> Trials<'a, K> {
             let combined =
                 attempt(self.kernel, &taken_a, &taken_b, self.operation, &tags, contact)?;
             let used = [a, moved.as_ref().unwrap_or(b)];
-            return Ok(self.looked_at(combined, jitter_m, contact, &used));
+            let (combined, at) = if self.operation == Operation::SymmetricDifference && !contact {
+                matched(combined, &used, rounding_m(self.operands))
+            } else {
+                (combined, Vec::new())
+            };
+            return Ok(self.looked_at(combined, jitter_m, contact, &used, &at));
         }
         let (smaller_b, smaller) = self.second(&tags_b, seed, -jitter_m)?;
         let pairs = [(&taken_a, &taken_b), (&smaller_b, &taken_a)];
         let combined = tidied(apart(self.kernel, pairs, &tags, self.operation)?);
         let used = [a, moved.as_ref().unwrap_or(b), smaller.as_ref().unwrap_or(b)];
-        Ok(self.looked_at(combined, jitter_m, contact, &used))
+        Ok(self.looked_at(combined, jitter_m, contact, &used, &[]))
     }
 
     /// A trial of a symmetric difference that has no walls where operands touch: what is left of the second
@@ -220,7 +210,7 @@ impl<'a, K: Kernel> Trials<'a, K> {
         let combined =
             self.kernel.combine(&left_of_a, &grown, Operation::Union).map_err(&failed)?;
         let combined = labelled(self.kernel.give(&combined), &tags, self.operation.name())?;
-        Ok(self.looked_at(tidied(combined), jitter_m, true, &[a]))
+        Ok(self.looked_at(tidied(combined), jitter_m, true, &[a], &[]))
     }
 
     fn first(&self, tags: &[u32]) -> Result<K::Solid, SolidError> {
@@ -241,31 +231,31 @@ impl<'a, K: Kernel> Trials<'a, K> {
         taken.map(|taken| (taken, moved)).map_err(|why| refused("second", b, why))
     }
 
-    /// Step 5 of a trial, and whether it is sound; `used` are the meshes that the engine was given.
+    /// Step 5 of a trial, and whether it is sound; `used` are the meshes that the engine was given, `at` faces to be
+    /// looked at in any case.
     fn looked_at(
         &self,
         combined: Polyhedron,
         jitter_m: f64,
         contact: bool,
         used: &[&Polyhedron],
+        at: &[u32],
     ) -> Trial {
         let before = self.tell.then(|| combined.clone());
         let mesh = self.settled(combined, jitter_m, contact, &mut Off);
-        let sound = if self.contacts == Contacts::Rounded && jitter_m == 0.0 {
+        let crossed = if self.contacts == Contacts::Rounded && jitter_m == 0.0 {
             // Faces that the engine left as they were may meet, too.
-            flat_faces(&mesh).is_empty() && crossings(&mesh, 1).is_empty()
-        } else if contact {
-            !any_is_crossed(&mesh, &changed(&mesh, used))
+            let flat = flat_faces(&mesh).into_iter().map(|face| [face, face]);
+            let meeting = crossings(&mesh, MOST_CROSSED).into_iter().map(|pair| pair.faces);
+            flat.chain(meeting).take(MOST_CROSSED).collect()
         } else {
-            let mut some = thin(&mesh);
-            if self.operation == Operation::SymmetricDifference {
-                some.extend(unmatched(&mesh, used));
-                some.sort_unstable();
-                some.dedup();
-            }
-            !any_is_crossed(&mesh, &some)
+            let mut some = if contact { changed(&mesh, used) } else { thin(&mesh) };
+            some.extend(at);
+            some.sort_unstable();
+            some.dedup();
+            crossed(&mesh, &some, MOST_CROSSED)
         };
-        Trial { combined: before, mesh, jitter_m, contact, sound }
+        Trial { combined: before, mesh, jitter_m, contact, crossed }
     }
 
     /// Step 5.
@@ -282,41 +272,5 @@ impl<'a, K: Kernel> Trials<'a, K> {
         }
         let coincident_m = self.options.coincident_m.max(COINCIDENT_JITTERS * jitter_m);
         settled(mesh, self.looking, coincident_m, probe)
-    }
-
-    /// The area of both operands, square metres.
-    fn scale_m2(&self) -> f64 {
-        self.operands.iter().map(|mesh| mesh.area_by_label().total_m2()).sum()
-    }
-
-    /// The area that the result has without walls where operands touch, by a trial with the second operand
-    /// moved.
-    fn area_m2(&self, moved: &Trial) -> Result<f64, SolidError> {
-        let mut area_m2 = moved.mesh.area_by_label().total_m2();
-        if self.operation == Operation::SymmetricDifference {
-            // What both operands have alike is in the union and in the intersection and in no difference; what
-            // touches is in both differences alone.
-            area_m2 -= self.scale_m2();
-            for operation in [Operation::Union, Operation::Intersection] {
-                let other = Trials { operation, ..*self };
-                let other = other.trial(moved.jitter_m, self.options.seed, true)?;
-                area_m2 += other.mesh.area_by_label().total_m2();
-            }
-        }
-        Ok(area_m2)
-    }
-
-    /// Whether a trial has this area, and the volume and the areas of one with the second operand moved, but for
-    /// what the move takes.
-    fn agree(&self, trial: &Trial, moved: &Trial, area_m2: f64) -> bool {
-        let scale_m2 = self.scale_m2();
-        let off_m3 = (trial.mesh.volume_m3() - moved.mesh.volume_m3()).abs();
-        let same = |x: f64, y: f64| (x - y).abs() <= SAME_AREA * scale_m2;
-        let (found, other) = (trial.mesh.area_by_label(), moved.mesh.area_by_label());
-        // The walls that a symmetric difference may have or not are of any label.
-        off_m3 <= SAME_VOLUME * moved.jitter_m * scale_m2
-            && same(found.total_m2(), area_m2)
-            && (self.operation == Operation::SymmetricDifference
-                || same(found.obstacle_m2, other.obstacle_m2))
     }
 }

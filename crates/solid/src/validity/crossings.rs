@@ -86,32 +86,36 @@ pub(super) fn crossings_of(mesh: &Polyhedron, flat: &[u32], limit: usize) -> Vec
     found
 }
 
-/// Whether one of the faces `some` is flat, or has more in common with any face than corners and edges at
-/// the same places; exact.
+/// Which of the faces `some` are flat, each twice, and the pairs of one of them and any face that have more in
+/// common than corners and edges at the same places: at most `limit`, as they are found; exact.
 ///
 /// O((n + k) log k) for k of n faces where few boxes touch.
-pub(crate) fn any_is_crossed(mesh: &Polyhedron, some: &[u32]) -> bool {
-    if some.iter().any(|&face| is_flat(mesh, face)) {
-        return true;
+pub(crate) fn crossed(mesh: &Polyhedron, some: &[u32], limit: usize) -> Vec<[u32; 2]> {
+    let mut found: Vec<[u32; 2]> = some
+        .iter()
+        .filter(|&&face| is_flat(mesh, face))
+        .map(|&face| [face, face])
+        .take(limit)
+        .collect();
+    if found.len() >= limit {
+        return found;
     }
     let tree = Bvh::new(&some.iter().map(|&face| around(mesh, face)).collect::<Vec<_>>());
-    let meets = |a: u32, b: u32| {
-        let (p, q) = (mesh.corners(a as usize), mesh.corners(b as usize));
-        // The places of the second are those of the first where they are the same.
-        let place = |j: usize| p.iter().position(|&at| at == q[j]).unwrap_or(3 + j) as u32;
-        meet(p, [0, 1, 2], q, [0, 1, 2].map(place)).is_some()
-    };
-    let look = |a: u32, b: u32| {
-        if meets(a, b) { ControlFlow::Break(()) } else { ControlFlow::Continue(()) }
+    let mut look = |a: u32, b: u32| {
+        if faces_meet(mesh, a, b) {
+            found.push([a, b]);
+        }
+        if found.len() < limit { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     };
     let mut listed = vec![false; mesh.faces().len()];
     for &face in some {
         listed[face as usize] = true;
     }
     let whole = some.iter().fold(Aabb::empty(), |sum, &face| sum.union(&around(mesh, face)));
-    let others = (0..mesh.faces().len() as u32).filter(|&face| !listed[face as usize]);
-    tree.pairs(|a, b| look(some[a as usize], some[b as usize])).is_break()
-        || others.map(|face| (face, around(mesh, face))).any(|(face, aabb)| {
+    let mut others = (0..mesh.faces().len() as u32).filter(|&face| !listed[face as usize]);
+    let broken = tree.pairs(|a, b| look(some[a as usize], some[b as usize])).is_break()
+        || others.any(|face| {
+            let aabb = around(mesh, face);
             aabb.touches(&whole)
                 && tree
                     .walk(
@@ -119,7 +123,26 @@ pub(crate) fn any_is_crossed(mesh: &Polyhedron, some: &[u32]) -> bool {
                         |index| look(face, some[index as usize]),
                     )
                     .is_break()
-        })
+        });
+    debug_assert!(broken == (found.len() >= limit));
+    found
+}
+
+/// Whether two faces have more in common than corners and edges at the same places.
+fn faces_meet(mesh: &Polyhedron, a: u32, b: u32) -> bool {
+    let (p, q) = (mesh.corners(a as usize), mesh.corners(b as usize));
+    // The places of the second are those of the first where they are the same.
+    let place = |j: usize| p.iter().position(|&at| at == q[j]).unwrap_or(3 + j) as u32;
+    meet(p, [0, 1, 2], q, [0, 1, 2].map(place)).is_some()
+}
+
+/// Whether two of the faces whose boxes touch a box have more in common than corners and edges at the same
+/// places. O(n + k^2) for k such faces.
+pub(crate) fn meets_itself_near(mesh: &Polyhedron, aabb: &Aabb) -> bool {
+    let near = |&face: &u32| around(mesh, face).touches(aabb);
+    let near: Vec<u32> = (0..mesh.faces().len() as u32).filter(near).collect();
+    let pairs = near.iter().enumerate().flat_map(|(i, &a)| near[..i].iter().map(move |&b| (a, b)));
+    pairs.into_iter().any(|(a, b)| faces_meet(mesh, a, b))
 }
 
 fn around(mesh: &Polyhedron, face: u32) -> Aabb {
