@@ -31,8 +31,11 @@ const ALL: [Operation; 4] = [
 ];
 /// Seconds that the runs of one operation take at least, by each: far more than a step of the clock.
 const RUN_SECS: f64 = 0.25;
-/// Runs of one operation at least, and at most.
-const RUNS: [usize; 2] = [8, 2000];
+/// How often both take turns at least.
+const TURNS: usize = 8;
+/// So many faces are put together in one turn at least, by as many runs as that takes, so that a turn is longer than a
+/// step of the clock.
+const FACES: usize = 4000;
 /// Points on the surface of each operand.
 const SAMPLES: usize = 40_000;
 
@@ -202,15 +205,18 @@ fn main() {
         for operation in ALL {
             let (mut theirs, mut ours) = (0.0, 0.0);
             let mut found = Polyhedron::empty();
-            let mut runs = 0;
-            while runs < RUNS[0] || (theirs < RUN_SECS && runs < RUNS[1]) {
-                theirs += secs(|| engine(&a, &b, operation)).1;
-                let (mesh, took) = secs(|| boolean(&a, &b, operation, &Options::default()));
+            let runs = FACES.div_ceil(a.faces().len());
+            let mut turns = 0;
+            while turns < TURNS || theirs < RUN_SECS {
+                theirs += secs(|| (0..runs).map(|_| engine(&a, &b, operation)).sum::<usize>()).1;
+                let ours_once = || boolean(&a, &b, operation, &Options::default());
+                let (done, took) = secs(|| (1..runs).fold(ours_once(), |_, _| ours_once()));
+                found = done.expect("sound operands");
                 ours += took;
-                found = mesh.expect("sound operands");
-                runs += 1;
+                turns += 1;
             }
-            (theirs, ours) = (theirs / runs as f64, ours / runs as f64);
+            let times = (runs * turns) as f64;
+            (theirs, ours) = (theirs / times, ours / times);
             let sum = &mut sums[usize::from(operation == Operation::SymmetricDifference)];
             *sum = [sum[0] + theirs, sum[1] + ours];
             let volume = oracle(&a, &b, operation);

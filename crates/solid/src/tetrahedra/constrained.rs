@@ -3,19 +3,17 @@
 use probe::{Off, Probe};
 
 use super::delaunay::delaunay_of;
-use super::events::{Cause, TetrahedraEvent};
+use super::events::TetrahedraEvent;
+use super::filled::{Filled, filled};
 use super::flips::Work;
 use super::gate::{Inside, Sound, admit};
 use super::mesh::NONE;
 use super::order::{Growth, brio};
-use super::recover::{PLANS, commit, conform};
 use super::result::{BoundaryFace, Tetrahedra};
 use crate::{Point3, Polyhedron, SolidError};
 
 /// Corners of the box round the input.
-const BOX: usize = 8;
-/// The rounds in which all free points are tried to be removed, and whether with all effort.
-const REMOVALS: [bool; 4] = [false, false, true, true];
+pub(super) const BOX: usize = 8;
 
 /// The tetrahedra of a closed polyhedron; see [`Tetrahedra`] for what holds.
 ///
@@ -57,11 +55,7 @@ pub fn tetrahedralize_in(
         return Ok(Tetrahedra { vertices: mesh.vertices().to_vec(), ..Tetrahedra::default() });
     }
     let (start, rank_of) = triangulate(&sound, probe)?;
-    let mut work = keep_faces(&start, probe)?;
-    let is_inside = work.classify(inside);
-    let within = free_points(&work, BOX + sound.points.len(), &is_inside);
-    remove_steiner(&mut work, &within, probe);
-    let is_inside = work.classify(inside);
+    let Filled { mut work, is_inside, .. } = filled(&start, sound.points.len(), inside, probe)?;
     if probe.on() {
         let all: Vec<[u32; 4]> = work.mesh.finite().map(|t| work.mesh.tet(t).v).collect();
         let within: Vec<[u32; 4]> = work
@@ -83,7 +77,7 @@ pub fn tetrahedralize_in(
 
 /// The Delaunay tetrahedra of the places in a box around them, with the faces that must appear; and for
 /// each place its vertex.
-fn triangulate(
+pub(super) fn triangulate(
     sound: &Sound,
     probe: &mut impl for<'a> Probe<TetrahedraEvent<'a>>,
 ) -> Result<(Work, Vec<u32>), SolidError> {
@@ -113,104 +107,6 @@ fn triangulate(
         start.must.add(corners.map(|place| rank_of[place as usize]), face);
     }
     Ok((start, rank_of))
-}
-
-/// Makes all faces appear, with no point on them that the input does not have: by one plan after the
-/// other, each from the start.
-fn keep_faces(
-    start: &Work,
-    probe: &mut impl for<'a> Probe<TetrahedraEvent<'a>>,
-) -> Result<Work, SolidError> {
-    let mut faces = Vec::new();
-    for plan in &PLANS {
-        let mut work = start.clone();
-        if probe.on() {
-            let facets: Vec<[u32; 3]> = work.must.facets.iter().map(|f| f.corners).collect();
-            probe.emit(TetrahedraEvent::Triangulated {
-                mesh: (&work.mesh).into(),
-                box_corners: BOX,
-                facets: &facets,
-            });
-        }
-        faces = conform(&mut work, plan, probe);
-        if faces.is_empty() {
-            faces = clear_boundary(&mut work, probe);
-            if faces.is_empty() {
-                return Ok(work);
-            }
-        }
-    }
-    Err(SolidError::NoRoom { faces })
-}
-
-/// Takes all points off the boundary that were put there for the time being; the faces from which none
-/// could be taken, ascending.
-fn clear_boundary(
-    work: &mut Work,
-    probe: &mut impl for<'a> Probe<TetrahedraEvent<'a>>,
-) -> Vec<u32> {
-    loop {
-        let mut kept = Vec::new();
-        let mut splits = std::mem::take(&mut work.splits);
-        let count = splits.len();
-        // The newest first: they divide what older ones made.
-        while let Some(split) = splits.pop() {
-            let (before, point) = (work.mesh.points.len(), *work.mesh.point(split.vertex));
-            if work.suppress(&split) {
-                commit(work, Cause::Suppress, before, probe);
-                probe.emit(TetrahedraEvent::SteinerRemoved { vertex: split.vertex, point });
-            } else {
-                commit(work, Cause::Suppress, before, probe);
-                kept.push(split);
-            }
-        }
-        kept.reverse();
-        if kept.is_empty() || kept.len() == count {
-            let mut faces: Vec<u32> =
-                kept.iter().flat_map(|split| split.facets.iter().map(|facet| facet.1)).collect();
-            faces.sort_unstable();
-            faces.dedup();
-            work.splits = kept;
-            return faces;
-        }
-        work.splits = kept;
-    }
-}
-
-/// The vertices from `first` on that are corners inside, ascending: those outside do no harm.
-fn free_points(work: &Work, first: usize, is_inside: &[bool]) -> Vec<u32> {
-    let all = work.mesh.finite().filter(|&t| is_inside[t as usize]);
-    let mut within: Vec<u32> =
-        all.flat_map(|t| work.mesh.tet(t).v).filter(|&v| v as usize >= first).collect();
-    within.sort_unstable();
-    within.dedup();
-    within
-}
-
-/// Removes some free points where that works.
-fn remove_steiner(
-    work: &mut Work,
-    points: &[u32],
-    probe: &mut impl for<'a> Probe<TetrahedraEvent<'a>>,
-) {
-    for hard in REMOVALS {
-        let mut removed = false;
-        for &v in points {
-            if work.mesh.at[v as usize] == NONE {
-                continue;
-            }
-            let gone = work.remove_free(v, hard);
-            removed |= gone;
-            commit(work, Cause::Remove, work.mesh.points.len(), probe);
-            if gone {
-                let point = *work.mesh.point(v);
-                probe.emit(TetrahedraEvent::SteinerRemoved { vertex: v, point });
-            }
-        }
-        if !removed && hard {
-            break;
-        }
-    }
 }
 
 /// The result, over the vertices of the input.

@@ -6,6 +6,7 @@ mod constraints;
 mod delaunay;
 mod events;
 mod fan;
+mod filled;
 mod flips;
 mod gate;
 mod mesh;

@@ -17,4 +17,4 @@ mod present;
 mod segments;
 
 pub(crate) use passes::{commit, conform};
-pub(crate) use plan::PLANS;
+pub(crate) use plan::{PLANS, Plan};
