@@ -10,6 +10,7 @@ mod rapid;
 pub use events::{Ending, ExploreProbe, GiveUp, GraphEvent, PlannerEvent, State};
 pub use explorer::{Explorer, StepReport};
 pub use flight::{
-    FlightEvent, FlightExplorer, FlightGiveUp, FlightParams, FlightProbe, FlightReport,
+    FlightEvent, FlightExplorer, FlightGiveUp, FlightParams, FlightProbe, FlightReport, Ways,
+    WaysTally,
 };
 pub use params::{ExploreParams, Policy, RapidParams};

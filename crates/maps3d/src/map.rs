@@ -127,7 +127,8 @@ pub struct MapWork {
     pub paths: u64,
     /// Their lengths through centroids, summed, metres.
     pub paths_m: f64,
-    /// The same after they were shortened, metres.
+    /// The same after they were shortened, metres: by cone programmes, and in maps of several volumes by leaving out
+    /// bends that they can do without.
     pub shortened_m: f64,
 }
 
@@ -233,6 +234,21 @@ pub trait Map3d {
         &mut self,
         _hovering: &Hovering,
         _radius_m: f64,
+    ) -> Option<Vec<Point3<f64>>> {
+        None
+    }
+
+    /// A way of a round body to a place in the frame of a vertex, through the views between, whoever took them: its
+    /// bends and the place at its end, in the frame `body`. `None` where none is found, where the vertex is too far
+    /// along the graph, and for maps that plan no such ways. A way is planned on what was seen, with drift: each leg is
+    /// to be looked at before it is flown.
+    fn way_to(
+        &mut self,
+        _hovering: &Hovering,
+        _vertex: VertexId,
+        _place_in_vertex: &Point3<f64>,
+        _radius_m: f64,
+        _probe: &mut dyn Map3dProbe,
     ) -> Option<Vec<Point3<f64>>> {
         None
     }

@@ -11,7 +11,7 @@ mod points_map;
 use std::sync::Arc;
 use std::time::Instant;
 
-use explore::{FlightEvent, FlightExplorer, FlightGiveUp, FlightParams};
+use explore::{FlightEvent, FlightExplorer, FlightGiveUp, FlightParams, Ways};
 use maps3d::{
     ConsolidationEvent, DepthEvent, Map3d, PlanEvent, RelativeMap, RelativeParams, UnionEvent,
     UnionMap, UnionParams,
@@ -137,6 +137,13 @@ fn main() {
             "tries" => flight.tries = number() as usize,
             "around" => flight.around_m = number(),
             "fov" => params.camera.fov_down_rad = number().to_radians(),
+            "ways" => {
+                flight.ways = match value {
+                    "repeat" => Ways::Repeat,
+                    "planned" => Ways::Planned,
+                    _ => Ways::Told,
+                }
+            }
             "hop" => flight.hop_m = number(),
             "vertices" => {
                 let stop = maps3d::reduce::Stop::Vertices(number() as usize);
@@ -264,6 +271,14 @@ fn main() {
         explorer.given_up_m2(FlightGiveUp::NothingNew).1,
         explorer.maps()[0].bytes() as f64 / 1024.0 / explorer.looks() as f64,
         started.elapsed().as_secs_f64()
+    );
+    let work = explorer.maps()[0].work();
+    println!(
+        "  ways {:?}, paths {} of {:.1} m through centroids, {:.1} m shortened",
+        explorer.ways(),
+        work.paths,
+        work.paths_m,
+        work.shortened_m
     );
     if verdict.coverage < 0.999 {
         let missing: Vec<String> = witness

@@ -26,6 +26,9 @@ const SIGHTS: usize = 3;
 
 impl FlightExplorer {
     pub(super) fn act(&mut self, robot: &mut dyn FlyingRobot, probe: &mut dyn FlightProbe) {
+        if self.goes_on_through_views(robot, probe) {
+            return;
+        }
         if let Some((to, length_m)) = self.way.pop() {
             self.repeat(robot, to, length_m, probe);
             return;
@@ -74,7 +77,7 @@ impl FlightExplorer {
     /// Flies to where a plan says, and notes what is to be looked at from there. Where nobody looked that way
     /// with some room on both sides, it is looked that way first, and the flight comes next; false where that
     /// look showed something in the way.
-    fn carry_out(
+    pub(super) fn carry_out(
         &mut self,
         robot: &mut dyn FlyingRobot,
         plan: Plan,
@@ -244,14 +247,20 @@ impl FlightExplorer {
             return self.carry_out(robot, plan, probe);
         }
         let all = nearby(&self.graph, self.hovering.vertex, f64::INFINITY);
-        self.way = legs_to(&all, plan.at);
+        let legs = legs_to(&all, plan.at);
+        let legs_m: f64 = legs.iter().map(|leg| leg.1).sum();
+        let repeat_m = legs_m + plan.place.coords.norm();
+        if self.sets_out_through_views(plan.at, Some(&plan), repeat_m, probe) {
+            return self.goes_on_through_views(robot, probe);
+        }
+        self.way = legs;
         self.plan = Some(plan);
         self.set_out(robot, probe);
         true
     }
 
     /// The first leg of a way.
-    fn set_out(&mut self, robot: &mut dyn FlyingRobot, probe: &mut dyn FlightProbe) {
+    pub(super) fn set_out(&mut self, robot: &mut dyn FlyingRobot, probe: &mut dyn FlightProbe) {
         if let Some((to, length_m)) = self.way.pop() {
             self.repeat(robot, to, length_m, probe);
         }
@@ -306,6 +315,11 @@ impl FlightExplorer {
                     return true;
                 };
                 self.note_visit(goal);
+                if self.sets_out_through_views(goal, None, length_m, probe)
+                    && self.goes_on_through_views(robot, probe)
+                {
+                    return true;
+                }
                 self.way = legs;
                 self.way.reverse();
                 self.set_out(robot, probe);

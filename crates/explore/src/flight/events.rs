@@ -95,6 +95,19 @@ pub enum FlightEvent<'a> {
         /// Its length, metres.
         length_m: f64,
     },
+    /// A way through the views between was found to somewhere that is not straight from here (4).
+    WayWeighed {
+        /// Where the robot hovers.
+        hovering: Hovering,
+        /// Its bends and its end, in the frame `body`.
+        in_body: &'a [Point3],
+        /// Its length, metres.
+        way_m: f64,
+        /// What is flown along the graph otherwise, metres.
+        repeat_m: f64,
+        /// Whether the robot sets out on it; else it repeats.
+        is_flown: bool,
+    },
     /// The robot flew straight.
     Flew {
         /// The distance, metres.
@@ -135,5 +148,5 @@ impl<P> FlightProbe for P where P: Map3dProbe + for<'a> Probe<FlightEvent<'a>> +
 probe::variants!(
     FlightEvent<'_>:
     StateChanged, VertexAdded, EdgeAdded, Turned, Looked, ViewpointsScored, ViewpointChosen, RoutePlanned,
-    Flew, LegRepeated, FrontierGivenUp, Finished
+    WayWeighed, Flew, LegRepeated, FrontierGivenUp, Finished
 );

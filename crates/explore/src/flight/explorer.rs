@@ -11,6 +11,7 @@ use super::later::Later;
 use super::memory::{Target, Tries};
 use super::panorama::{Lens, Panorama};
 use super::viewpoint::Plan;
+use super::ways::{Course, WaysTally};
 use super::{FlightEvent, FlightGiveUp, FlightParams, FlightProbe};
 use crate::{Ending, State};
 
@@ -59,6 +60,9 @@ pub struct FlightExplorer {
     pub(super) looks_here: u32,
     /// Legs still to be flown, the last first.
     pub(super) way: Vec<(VertexId, f64)>,
+    /// A way through views that is under way.
+    pub(super) course: Option<Course>,
+    pub(super) ways: WaysTally,
     /// What to do at the end of the way.
     pub(super) plan: Option<Plan>,
     pub(super) tries: Tries,
@@ -97,6 +101,8 @@ impl FlightExplorer {
             targets: Vec::new(),
             looks_here: 0,
             way: Vec::new(),
+            course: None,
+            ways: WaysTally::default(),
             plan: None,
             tries: Tries::default(),
             visits: BTreeMap::new(),
@@ -186,6 +192,11 @@ impl FlightExplorer {
     /// Area of the frontier that was given up for a reason, and of the largest piece of it, square metres.
     pub fn given_up_m2(&self, why: FlightGiveUp) -> (f64, f64) {
         self.given_up_by.get(&why).copied().unwrap_or_default()
+    }
+
+    /// Ways through views: sought, found, flown.
+    pub fn ways(&self) -> WaysTally {
+        self.ways
     }
 
     /// Share of the distance that was flown along known ways.

@@ -33,8 +33,12 @@
 //!    vertex itself, where turning is enough. Nothing is flown for before such a place is known.
 //!    What has been looked at once, so that a depth was read in its direction, is not looked at again: it was
 //!    closed by that look, or it is not where the robot took it to be.
-//! 4. **Go elsewhere** (`act.rs`). With no frontier left here, the map names the way along the graph to the
-//!    nearest vertex with some, and the robot repeats it.
+//! 4. **Go elsewhere** (`act.rs`, `ways.rs`). With no frontier left here, the map names the way along the graph to the
+//!    nearest vertex with some, and the robot repeats it. Whenever it sets out to somewhere that is not straight from
+//!    here, a place to look from that begins at another vertex or a vertex with frontier, the map is also asked for a way
+//!    through the views between, whoever took them. What comes of it is a choice, [`Ways`]: it is told and counted; or
+//!    it is flown where it is clearly shorter, bend by bend, each leg looked at first and judged as any flight (2), and at
+//!    the first refusal the rest is repeated along the graph.
 //! 5. **Give up.** A round in which nobody looked at anything is followed by the last one. What is left is held
 //!    against those views once more, doubtful or not. Frontier that still counts is given up: as `Unreachable`
 //!    where none of the places above was ever found for it; as `Hidden` where it was looked at and something
@@ -60,8 +64,10 @@ mod nearby;
 mod panorama;
 mod params;
 mod viewpoint;
+mod ways;
 
 pub use events::{FlightEvent, FlightGiveUp, FlightProbe};
 pub use explorer::{FlightExplorer, FlightReport};
 pub use memory::Target;
 pub use params::FlightParams;
+pub use ways::{Ways, WaysTally};

@@ -1,5 +1,7 @@
 //! What can be chosen about the exploration of space.
 
+use super::Ways;
+
 /// Parameters of a run of [`FlightExplorer`](super::FlightExplorer).
 #[derive(Clone, Debug, PartialEq)]
 pub struct FlightParams {
@@ -28,6 +30,8 @@ pub struct FlightParams {
     pub around_m: f64,
     /// How often the robot is sent to a vertex whose frontier does not get less, before it is given up.
     pub visits_in_vain: u32,
+    /// How the robot gets to somewhere that is not straight from where it hovers.
+    pub ways: Ways,
     /// A run that takes more steps than this ends as not complete.
     pub max_steps: u64,
 }
@@ -46,6 +50,7 @@ impl Default for FlightParams {
             same_place_m: 0.4,
             around_m: 5.0,
             visits_in_vain: 5,
+            ways: Ways::default(),
             max_steps: 20_000,
         }
     }

@@ -64,6 +64,9 @@ pub struct DualGraph {
     starts: Vec<u32>,
     edges: Vec<Edge>,
     radius_m: f64,
+    /// Per node whether an obstacle is nearer than the radius; found out when asked, and empty unless legs
+    /// have to be clear.
+    crowded: Vec<AtomicU8>,
     /// Per gate whether the ball passes, found out when asked for the first time.
     passages: Vec<AtomicU8>,
     /// Frontier points that were left out because no ball reaches their part of the face.
@@ -125,8 +128,21 @@ impl DualGraph {
         pairs.sort_by_key(|(from, edge)| (*from, edge.to, edge.gate));
         let edges = pairs.into_iter().map(|(_, edge)| edge).collect();
         let passages = gates.iter().map(|_| AtomicU8::new(UNKNOWN)).collect();
-        let radius_m = options.radius_m;
-        Ok(Self { points, tetrahedra, frontier, gates, starts, edges, radius_m, passages, narrow })
+        let PlanOptions { radius_m, clear_legs, .. } = *options;
+        let asked = if clear_legs { points.len() } else { 0 };
+        let crowded = (0..asked).map(|_| AtomicU8::new(UNKNOWN)).collect();
+        Ok(Self {
+            points,
+            tetrahedra,
+            frontier,
+            gates,
+            starts,
+            edges,
+            radius_m,
+            crowded,
+            passages,
+            narrow,
+        })
     }
 
     /// The places of all nodes: of the tetrahedra, then of the frontier points.
@@ -184,21 +200,50 @@ impl DualGraph {
         }
     }
 
+    /// Whether a leg keeps the radius from obstacles.
+    fn is_clear_leg(&self, space: &Space, ends: [u32; 2], via: Option<Point3>) -> bool {
+        let points = ends.map(|node| self.points[node as usize]);
+        let is_crowded = |node: u32, at: &Point3| {
+            let known = &self.crowded[node as usize];
+            if known.load(Ordering::Relaxed) == UNKNOWN {
+                let is_near = space.obstacles().within(at, self.radius_m).is_some();
+                known.store(if is_near { SHUT } else { OPEN }, Ordering::Relaxed);
+            }
+            known.load(Ordering::Relaxed) == SHUT
+        };
+        if ends.iter().zip(&points).any(|(&node, at)| is_crowded(node, at)) {
+            return false;
+        }
+        let is_clear = |p: &Point3, q: &Point3| {
+            p == q || space.obstacles().near_segment(p, q, self.radius_m).is_none()
+        };
+        match via {
+            Some(via) => is_clear(&points[0], &via) && is_clear(&via, &points[1]),
+            None => is_clear(&points[0], &points[1]),
+        }
+    }
+
     /// Whether the ball may pass a gate; asked once for each gate, then known.
-    pub(super) fn is_passable(&self, space: &Space, gate: u32) -> bool {
+    pub(super) fn is_passable(&self, space: &Space, from: u32, edge: &Edge) -> bool {
         if self.radius_m == 0.0 {
             return true;
         }
+        let gate = edge.gate;
         let known = &self.passages[gate as usize];
         match known.load(Ordering::Relaxed) {
             UNKNOWN => {
-                let open = match self.gates[gate as usize].exit {
+                let Gate { exit, via } = self.gates[gate as usize];
+                let open = match exit {
+                    _ if !self.crowded.is_empty() => self.is_clear_leg(space, [from, edge.to], via),
                     Some(Exit::Face(corners)) => {
                         let face = space.points(corners);
                         passage(&face, self.radius_m, space.obstacles()) != Passage::Shut
                     }
-                    // Where two volumes overlap there is no face to be shut.
-                    Some(Exit::Overlap(_)) | None => true,
+                    // There is one point to change volumes at: where the ball does not fit, nothing else is tried.
+                    Some(Exit::Overlap(at)) => {
+                        space.obstacles().within(&at, self.radius_m).is_none()
+                    }
+                    None => true,
                 };
                 known.store(if open { OPEN } else { SHUT }, Ordering::Relaxed);
                 open

@@ -25,3 +25,4 @@ pub use obstacles::{Near, Obstacles};
 pub use options::{Algorithm, Heuristic, PlanOptions, Target};
 pub use planner::{Plan, Planner};
 pub use space::{Exit, FrontierFace, Space};
+pub(crate) use space::{FansKnown, nudged};

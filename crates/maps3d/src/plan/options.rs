@@ -59,6 +59,10 @@ pub struct PlanOptions {
     pub algorithm: Algorithm,
     /// What A* goes by.
     pub heuristic: Heuristic,
+    /// Only legs that keep the radius themselves are gone. Fewer ways are found, and none of them is refused
+    /// later: for volumes that reach into each other's obstacles. Else a gate is passed where a ball fits
+    /// somewhere on it.
+    pub clear_legs: bool,
     /// Whether the path is shortened.
     pub shorten: bool,
     /// How many corridors are tried where one turns out too narrow for the radius.
@@ -73,6 +77,7 @@ impl Default for PlanOptions {
             least_area_m2: 0.0,
             algorithm: Algorithm::default(),
             heuristic: Heuristic::default(),
+            clear_legs: false,
             shorten: true,
             tries: 16,
         }

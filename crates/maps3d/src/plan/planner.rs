@@ -75,7 +75,11 @@ impl Planner {
     /// # Errors
     /// [`Maps3dError`] for options out of their range and for what of a volume points at nothing.
     pub fn new(volumes: &[&Tetrahedra], options: &PlanOptions) -> Result<Self, Maps3dError> {
-        let space = Space::new(volumes)?;
+        Self::over(Space::new(volumes)?, options)
+    }
+
+    /// The same over a space that is known already.
+    pub(crate) fn over(space: Space, options: &PlanOptions) -> Result<Self, Maps3dError> {
         let graph = DualGraph::new(&space, options)?;
         let goals = NearestPoint::new(graph.frontier().iter().map(|node| node.at).collect());
         let wanted = vec![true; graph.frontier().len()];

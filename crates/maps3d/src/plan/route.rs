@@ -125,7 +125,7 @@ impl Graph for Query<'_> {
         } else {
             for edge in self.graph.edges_of(from.0) {
                 let shut = self.blocked.binary_search(&edge.gate).is_ok();
-                if !shut && self.graph.is_passable(self.space, edge.gate) {
+                if !shut && self.graph.is_passable(self.space, from.0, edge) {
                     visit(NodeId(edge.to), edge.cost);
                 }
             }

@@ -1,5 +1,7 @@
 //! Step 1: free space as tetrahedra that know their neighbours.
 
+use std::collections::BTreeMap;
+
 use solid::bvh::{Aabb, Bvh};
 use solid::predicates::{in_envelope, orient3};
 use solid::{Label, Point3, Tetrahedra, Vector3};
@@ -43,6 +45,18 @@ pub struct Space {
     frontier: Vec<FrontierFace>,
     obstacles: Obstacles,
     tree: Bvh,
+    /// Tetrahedra that another point than their middle stands for, ascending.
+    stands: Vec<(u32, Point3)>,
+}
+
+/// Volumes that are fans, each around its lens: what is known of them beside their tetrahedra.
+pub(crate) struct FansKnown<'a> {
+    /// The corner that all tetrahedra of a volume have in common, by volume.
+    pub lenses: &'a [Point3],
+    /// The tetrahedron of a volume that holds a point, to rounding, if one does.
+    pub find: &'a dyn Fn(usize, &Point3) -> Option<u32>,
+    /// Points that stand for the tetrahedra that they lie in.
+    pub ends: &'a [Point3],
 }
 
 impl Space {
@@ -54,6 +68,19 @@ impl Space {
     /// # Errors
     /// [`Maps3dError::Tetrahedra`] names what of a volume points at nothing, or is not a number.
     pub fn new(volumes: &[&Tetrahedra]) -> Result<Self, Maps3dError> {
+        Self::joined(volumes, None)
+    }
+
+    /// The same of fans. All tetrahedra of one meet at its lens: one of them, which the lens stands for, is joined to
+    /// all others there. What lies in a fan is found by its direction.
+    pub(crate) fn of_fans(
+        volumes: &[&Tetrahedra],
+        known: &FansKnown<'_>,
+    ) -> Result<Self, Maps3dError> {
+        Self::joined(volumes, Some(known))
+    }
+
+    fn joined(volumes: &[&Tetrahedra], fans: Option<&FansKnown<'_>>) -> Result<Self, Maps3dError> {
         let mut space = Self {
             vertices: Vec::new(),
             tetrahedra: Vec::new(),
@@ -62,6 +89,7 @@ impl Space {
             frontier: Vec::new(),
             obstacles: Obstacles::default(),
             tree: Bvh::default(),
+            stands: Vec::new(),
         };
         let mut exits: Vec<(u32, u32, Exit)> = Vec::new();
         let mut walls = Vec::new();
@@ -111,8 +139,11 @@ impl Space {
         let boxes: Vec<Aabb> =
             (0..space.len() as u32).map(|t| Aabb::around(space.corners(t))).collect();
         space.tree = Bvh::new(&boxes);
-        if volumes.len() > 1 {
-            firsts.push(space.len() as u32);
+        firsts.push(space.len() as u32);
+        if let Some(fans) = fans {
+            space.stand_for(fans, &firsts, &mut exits);
+            space.join_fans(fans, &firsts, &mut exits);
+        } else if volumes.len() > 1 {
             space.join(&firsts, &mut exits);
         }
         exits.sort_by_key(|&(from, to, _)| (from, to));
@@ -126,6 +157,51 @@ impl Space {
         }
         space.exits = exits.into_iter().map(|(_, to, exit)| (to, exit)).collect();
         Ok(space)
+    }
+
+    /// Ends stand for the tetrahedra that they are in, and lenses for one of their fan each, joined to all others.
+    fn stand_for(
+        &mut self,
+        fans: &FansKnown<'_>,
+        firsts: &[u32],
+        exits: &mut Vec<(u32, u32, Exit)>,
+    ) {
+        let mut stands: BTreeMap<u32, Point3> = BTreeMap::new();
+        for end in fans.ends {
+            if let Some(t) = self.locate(end) {
+                stands.entry(t).or_insert(*end);
+            }
+        }
+        for (volume, lens) in firsts.windows(2).zip(fans.lenses) {
+            let mut all = (volume[0]..volume[1]).filter(|&t| self.holds(t, lens));
+            let Some(hub) = all.clone().find(|t| !stands.contains_key(t)).or_else(|| all.next())
+            else {
+                continue;
+            };
+            stands.entry(hub).or_insert(*lens);
+            let exit = Exit::Overlap(*lens);
+            for t in (volume[0]..volume[1]).filter(|&t| t != hub && self.holds(t, lens)) {
+                exits.extend([(t, hub, exit), (hub, t, exit)]);
+            }
+        }
+        self.stands = stands.into_iter().collect();
+    }
+
+    /// Joins tetrahedra of different fans, each where its point lies in another.
+    fn join_fans(&self, fans: &FansKnown<'_>, firsts: &[u32], exits: &mut Vec<(u32, u32, Exit)>) {
+        for volume in 0..firsts.len().saturating_sub(1) {
+            for t in firsts[volume]..firsts[volume + 1] {
+                let middle = self.middle(t);
+                for other in (0..firsts.len() - 1).filter(|&other| other != volume) {
+                    let Some(u) = (fans.find)(other, &middle) else { continue };
+                    let u = u + firsts[other];
+                    if u < firsts[other + 1] && self.holds(u, &middle) {
+                        let exit = Exit::Overlap(middle);
+                        exits.extend([(t, u, exit), (u, t, exit)]);
+                    }
+                }
+            }
+        }
     }
 
     /// Joins tetrahedra of different volumes, and forgets frontier inside another volume.
@@ -156,17 +232,8 @@ impl Space {
     /// The point, or one next to it that lies in the space: poses round, and a camera hovers at the tip of its
     /// own view. Where nothing is within `near_m`, the middle of the nearest tetrahedron; `None` in no space.
     pub(crate) fn entry(&self, from: &Point3, near_m: f64) -> Option<Point3> {
-        if self.locate(from).is_some() {
-            return Some(*from);
-        }
-        for away_m in [1e-6, 1e-3, 0.01, 0.03].into_iter().filter(|m| *m < near_m).chain([near_m]) {
-            for direction in (0..27).filter(|&i| i != 13) {
-                let step = [direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 - 1];
-                let at = from + Vector3::from(step.map(f64::from)).normalize() * away_m;
-                if self.locate(&at).is_some() {
-                    return Some(at);
-                }
-            }
+        if let Some(at) = nudged(from, near_m, |at| self.locate(at).is_some()) {
+            return Some(at);
         }
         let middles = (0..self.len() as u32).map(|t| self.middle(t));
         middles.min_by(|a, b| (a - from).norm_squared().total_cmp(&(b - from).norm_squared()))
@@ -280,13 +347,37 @@ impl Space {
         });
     }
 
-    /// A point of the tetrahedron: its centre of gravity (\[Mos15\] eq. 4.2), unless it is so flat that
+    /// A point of the tetrahedron: its centre of gravity (\[Mos15\] eq. 4.2), unless another stands for it, or it is so flat that
     /// doubles have none inside; then a corner. It lies in the closed tetrahedron, exactly.
     pub fn middle(&self, tetrahedron: u32) -> Point3 {
+        if let Ok(at) = self.stands.binary_search_by_key(&tetrahedron, |stands| stands.0) {
+            return self.stands[at].1;
+        }
         let corners = self.corners(tetrahedron);
         let middle = middle_of(corners);
         if self.holds(tetrahedron, &middle) { middle } else { *corners[0] }
     }
+}
+
+/// The point, or the first of those around it that is inside, no farther off than `near_m`.
+pub(crate) fn nudged(
+    from: &Point3,
+    near_m: f64,
+    is_inside: impl Fn(&Point3) -> bool,
+) -> Option<Point3> {
+    if is_inside(from) {
+        return Some(*from);
+    }
+    for away_m in [1e-6, 1e-3, 0.01, 0.03].into_iter().filter(|m| *m < near_m).chain([near_m]) {
+        for direction in (0..27).filter(|&i| i != 13) {
+            let step = [direction % 3 - 1, direction / 3 % 3 - 1, direction / 9 - 1];
+            let at = from + Vector3::from(step.map(f64::from)).normalize() * away_m;
+            if is_inside(&at) {
+                return Some(at);
+            }
+        }
+    }
+    None
 }
 
 /// The centre of gravity of some points.

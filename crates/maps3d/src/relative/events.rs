@@ -3,10 +3,12 @@
 use pose::Se3;
 use posegraph::{Scope, Skeleton};
 use probe::{EdgeId, VertexId};
+use solid::Tetrahedra;
 
 use super::book::Cause;
 use super::ledger::OpenPart;
 use super::{RelativeMap, ViewState};
+use crate::Plan;
 
 /// Steps of consolidation in space (\[ISRR19\] 4.3, 4.4); numbers of views are those of
 /// [`RelativeMap::views`].
@@ -93,6 +95,27 @@ pub enum ConsolidationEvent<'a> {
         /// The view.
         view: u32,
     },
+    /// Views became volumes for the planner; what it tells next, and the way that it finds, is in the frame of the
+    /// vertex.
+    Fanned {
+        /// The vertex.
+        vertex: VertexId,
+        /// The fans.
+        volumes: &'a [Tetrahedra],
+        /// Where it is sought from.
+        from: nalgebra::Point3<f64>,
+        /// Where to.
+        to: nalgebra::Point3<f64>,
+    },
+    /// A way was planned through them.
+    Planned {
+        /// The vertex in whose frame everything is.
+        vertex: VertexId,
+        /// The way through centroids, its corridor, and the path that the cone programme made of it.
+        plan: &'a Plan,
+        /// The path that is given: that of the plan without bends that it can do without.
+        given: &'a [nalgebra::Point3<f64>],
+    },
     /// All that one look or edge set off is done.
     Settled {
         /// The map, to be read.
@@ -103,4 +126,4 @@ pub enum ConsolidationEvent<'a> {
 }
 
 probe::variants!(ConsolidationEvent<'_>: ViewAdded, ScopeTaken, PairCompared, Closed, Reopened, GivenUp,
-    Retired, Restored, Settled);
+    Retired, Restored, Fanned, Planned, Settled);

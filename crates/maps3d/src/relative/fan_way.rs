@@ -4,24 +4,22 @@ use solid::{Point3, Tetrahedra};
 
 use super::RelativeMap;
 use super::fans::Fans;
-use crate::plan::{FrontierNode, Space, polyline_m};
+use super::straight::{drawn_straight, is_open};
+use crate::plan::{FrontierNode, polyline_m};
 use crate::{Hovering, Maps3dError, PlanOptions, Planner, Target};
 
 /// A body is no smaller than this, metres: without a radius nothing would keep a way in one volume from an
 /// obstacle face of another.
-const LEAST_M: f64 = 1e-3;
+pub(super) const LEAST_M: f64 = 1e-3;
 
 /// A start so near to a volume counts as in it, metres.
-const NEAR_M: f64 = 0.1;
+pub(super) const NEAR_M: f64 = 0.1;
 
 /// Where something is nearer to the start than the radius, a way may keep less, but this share of it.
-const LEAST_SHARE: f64 = 0.4;
+pub(super) const LEAST_SHARE: f64 = 0.4;
 
 /// And then this share of what the start has.
-const OF_START: f64 = 0.9;
-
-/// Tetrahedra that leave a gap no longer than this on a line leave none, metres: points are rounded.
-const GAP_M: f64 = 1e-6;
+pub(super) const OF_START: f64 = 0.9;
 
 /// How a way through fans is sought.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -40,16 +38,18 @@ impl Default for FanOptions {
     }
 }
 
-/// A way to frontier.
+/// A way through fans.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FanWay {
-    /// From the robot to the frontier, bends included; in the frame `body`, metres.
+    /// From the robot to the frontier or the place, bends included; in the frame `body`, metres.
     pub in_body: Vec<Point3>,
     /// Its length, metres.
     pub length_m: f64,
     /// Length of the planner's way through centroids, metres; `None` for a straight line, for which none was
     /// planned.
     pub centroids_m: Option<f64>,
+    /// The same after the cone programme shortened it in its corridor, before bends between volumes were left out.
+    pub corridor_m: Option<f64>,
     /// What it keeps from obstacle faces of all volumes, metres: the radius, or less where the robot was
     /// nearer to one to begin with.
     pub keeps_m: f64,
@@ -102,7 +102,21 @@ impl RelativeMap {
             *point = hovering.vertex_from_body.inverse_transform(point);
         }
         search.way = way;
+        self.count(&search);
         Ok(search)
+    }
+
+    /// Counts what was planned.
+    pub(super) fn count(&mut self, search: &FanSearch) {
+        let work = &mut self.planned;
+        work.tetrahedra = search.tetrahedra;
+        if let Some(way) = &search.way
+            && let Some(centroids_m) = way.centroids_m
+        {
+            work.paths += 1;
+            work.paths_m += centroids_m;
+            work.shortened_m += way.length_m;
+        }
     }
 }
 
@@ -160,7 +174,13 @@ impl Seeker {
             let at = self.planner.graph().frontier()[node].at;
             if is_open(self.planner.space(), &self.start, &at, self.keeps_m) {
                 let (in_body, keeps_m) = (vec![self.start, at], self.keeps_m);
-                best = Some(FanWay { in_body, length_m: straight_m, centroids_m: None, keeps_m });
+                best = Some(FanWay {
+                    in_body,
+                    length_m: straight_m,
+                    centroids_m: None,
+                    corridor_m: None,
+                    keeps_m,
+                });
                 break;
             }
             if search.plans < options.most_plans {
@@ -193,25 +213,7 @@ impl Seeker {
         let (space, keeps_m) = (self.planner.space(), self.keeps_m);
         let in_body = drawn_straight(space, &plan.points(), keeps_m);
         let length_m = polyline_m(&in_body);
-        Some(FanWay { in_body, length_m, centroids_m: Some(plan.cost_m), keeps_m })
+        let (centroids_m, corridor_m) = (Some(plan.cost_m), Some(plan.path_m));
+        Some(FanWay { in_body, length_m, centroids_m, corridor_m, keeps_m })
     }
-}
-
-/// Whether a ball may go straight from one point to another.
-fn is_open(space: &Space, from: &Point3, to: &Point3, keeps_m: f64) -> bool {
-    space.obstacles().near_segment(from, to, keeps_m).is_none() && space.covers(from, to, GAP_M)
-}
-
-/// The same path without bends that it can do without. Where one volume is left for another the plan passes
-/// the middle of a tetrahedron, wherever that is.
-fn drawn_straight(space: &Space, path: &[Point3], keeps_m: f64) -> Vec<Point3> {
-    let mut points = Vec::with_capacity(path.len());
-    let mut at = 0;
-    while let Some(point) = path.get(at) {
-        points.push(*point);
-        let farther = (at + 2..path.len()).rev();
-        let next = farther.into_iter().find(|&to| is_open(space, point, &path[to], keeps_m));
-        at = next.unwrap_or(at + 1);
-    }
-    points
 }

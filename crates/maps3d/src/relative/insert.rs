@@ -8,20 +8,8 @@ use super::events::ConsolidationEvent;
 use super::pair::{Pair, USUAL};
 use super::volume::LocalVolume;
 use super::{RelativeMap, ViewState};
+use crate::events::Relay;
 use crate::{Look, Map3dProbe, Maps3dError, polyhedron_with};
-
-/// Forwards the events of one family: the pipeline asks for a probe of known size.
-struct Depths<'a>(&'a mut dyn Map3dProbe);
-
-impl Probe<crate::DepthEvent<'_>> for Depths<'_> {
-    fn on(&self) -> bool {
-        Probe::<crate::DepthEvent<'_>>::on(self.0)
-    }
-
-    fn emit(&mut self, event: crate::DepthEvent<'_>) {
-        self.0.emit(event);
-    }
-}
 
 /// A view of a scope, placed.
 #[derive(Clone, Copy, Debug)]
@@ -43,7 +31,7 @@ impl RelativeMap {
             return Err(Maps3dError::Pose { vertex: look.vertex });
         }
         let options = self.params.view_through(&look.image.camera);
-        let made = polyhedron_with(look.image, &options, &mut Depths(&mut *probe))?;
+        let made = polyhedron_with(look.image, &options, &mut Relay(&mut *probe))?;
         let volume = LocalVolume::new(&made)?;
         self.cover(look.vertex);
         self.looks += 1;

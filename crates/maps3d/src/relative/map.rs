@@ -13,7 +13,7 @@ use super::pair::Work;
 use super::{FanOptions, RelativeParams, ViewState};
 use crate::{
     FlightClearance, FlightRoute, FrontierPatch, Hovering, Known, Look, Map3d, Map3dProbe,
-    MapTally, Maps3dError, Sights,
+    MapTally, MapWork, Maps3dError, Sights,
 };
 
 /// Star-shaped polyhedra on a pose graph, with consolidated frontier (\[ISRR19\] 4.4 carried out in space).
@@ -36,6 +36,8 @@ pub struct RelativeMap {
     /// How many looks were taken.
     pub(super) looks: u32,
     pub(super) work: Work,
+    /// What was planned so far.
+    pub(super) planned: MapWork,
     /// What bounds the views of vertices that were asked for clearance lately, the last one first.
     pub(super) shells: Vec<Shell>,
 }
@@ -61,6 +63,7 @@ impl RelativeMap {
             given_up: Vec::new(),
             looks: 0,
             work: Work::default(),
+            planned: MapWork::default(),
             shells: Vec::new(),
         })
     }
@@ -128,6 +131,9 @@ impl RelativeMap {
         }
     }
 }
+
+/// Views that a way from one place to another is planned through, at most.
+const MOST_BETWEEN: usize = 10;
 
 /// The skeleton of a map without vertices.
 pub(super) fn empty_skeleton(params: &RelativeParams) -> Skeleton<Se3> {
@@ -225,6 +231,24 @@ impl Map3d for RelativeMap {
         // A radius out of its range has no way.
         let way = self.way_through_fans(hovering, &options).ok()?.way?;
         Some(way.in_body.into_iter().skip(1).collect())
+    }
+
+    fn way_to(
+        &mut self,
+        hovering: &Hovering,
+        vertex: VertexId,
+        place_in_vertex: &Point3<f64>,
+        radius_m: f64,
+        probe: &mut dyn Map3dProbe,
+    ) -> Option<Vec<Point3<f64>>> {
+        let options = FanOptions { radius_m, most_volumes: MOST_BETWEEN, ..FanOptions::default() };
+        // A radius out of its range has no way.
+        let found = self.way_through_fans_to(hovering, vertex, place_in_vertex, &options, probe);
+        Some(found.ok()?.way?.in_body.into_iter().skip(1).collect())
+    }
+
+    fn work(&self) -> MapWork {
+        self.planned
     }
 
     fn give_up(

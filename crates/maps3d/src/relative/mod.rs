@@ -15,7 +15,9 @@
 //! | `book.rs`, `withdraw.rs` | who closed what along which path; taken back |
 //! | `parts.rs`, `samples.rs` | frontier that hangs together; as points |
 //! | `ask.rs`, `clearance.rs`, `distance.rs` | the policy's questions |
-//! | `fans.rs`, `fan_way.rs` | free space around a vertex as tetrahedra; the way to the nearest frontier through them |
+//! | `fans.rs` | free space around a vertex as tetrahedra |
+//! | `fan_way.rs`, `fan_to.rs` | the way to the nearest frontier through them; to a place |
+//! | `straight.rs` | a way through several volumes without bends that it can do without |
 //! | `events.rs`, `params.rs` | what can be watched, what can be chosen |
 
 #![doc = include_str!("../../docs/relative.md")]
@@ -28,6 +30,7 @@ mod distance;
 mod doubt;
 mod drift;
 mod events;
+mod fan_to;
 mod fan_way;
 mod fans;
 mod farther;
@@ -42,6 +45,7 @@ mod parts;
 mod samples;
 mod slice;
 mod state;
+mod straight;
 mod volume;
 mod withdraw;
 

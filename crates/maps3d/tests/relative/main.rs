@@ -4,4 +4,5 @@ mod asked;
 mod oracle;
 mod pairs;
 mod scene;
+mod ways;
 mod withdrawal;

@@ -107,10 +107,20 @@ pub fn vertex_from_camera(yaw_rad: f64) -> Se3 {
     Se3::new(Vector3::zeros(), turned * UnitQuaternion::from_rotation_matrix(&upright))
 }
 
+/// A box: its least and its greatest corner, metres.
+pub type Block = ([f64; 3], [f64; 3]);
+
 /// A room of 8 by 6 by 3 m about the origin, with a pillar in it.
 pub fn room_image(world_from_camera: &Se3) -> DepthImage {
+    image_of(
+        &[([-4.0, -3.0, -1.5], [4.0, 3.0, 1.5]), ([1.0, 0.5, -1.5], [1.6, 1.1, 1.5])],
+        world_from_camera,
+    )
+}
+
+/// What is seen in a box that holds boxes: the first is that around.
+pub fn image_of(boxes: &[Block], world_from_camera: &Se3) -> DepthImage {
     let (camera, columns, rows) = wide_camera();
-    let boxes = [([-4.0, -3.0, -1.5], [4.0, 3.0, 1.5]), ([1.0, 0.5, -1.5], [1.6, 1.1, 1.5])];
     let from = world_from_camera.translation;
     let depths_m = (0..columns * rows).map(|at| {
         let [x, y] = camera.slope_of((at % columns) as f64, (at / columns) as f64);

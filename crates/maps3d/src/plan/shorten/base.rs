@@ -20,6 +20,9 @@ pub(in super::super) struct Narrow {
 /// The first choice of a knot keeps this much more than the radius.
 const AMPLE: f64 = 1.1;
 
+/// A knot that leads round something lies so far towards a corner of its tetrahedron, as shares of the way there.
+const CORNER_SHARES: [f64; 4] = [0.5, 0.75, 0.9, 0.25];
+
 /// One knot on each gate, where the way passes it or else where it is clearest, and where a segment
 /// between two comes too near, one more inside of the tetrahedron.
 pub(super) fn clear(
@@ -95,7 +98,30 @@ fn detour(
     if ends_clear(&middle) {
         return Some(Knot { place: 2 * index, at: middle });
     }
-    // Away from what is nearest, again and again.
+    away_from_obstacles(space, radius_m, tetrahedron, from, to)
+        .or_else(|| {
+            // Towards a corner: in a fan the gates of a tetrahedron meet at the camera, and may be wide there only.
+            let between = nalgebra::center(from, to);
+            let towards = |share: f64| {
+                space.corners(tetrahedron).map(|corner| between + (corner - between) * share)
+            };
+            CORNER_SHARES
+                .into_iter()
+                .flat_map(towards)
+                .find(|at| space.holds(tetrahedron, at) && ends_clear(at))
+        })
+        .map(|at| Knot { place: 2 * index, at })
+}
+
+/// The point between two, moved away from what is nearest, again and again; inside of the tetrahedron.
+fn away_from_obstacles(
+    space: &Space,
+    radius_m: f64,
+    tetrahedron: u32,
+    from: &Point3,
+    to: &Point3,
+) -> Option<Point3> {
+    let obstacles = space.obstacles();
     let mut at = nalgebra::center(from, to);
     for _ in 0..6 {
         let near = [(from, &at), (&at, to)]
@@ -103,7 +129,7 @@ fn detour(
             .filter_map(|(a, b)| obstacles.near_segment(a, b, radius_m))
             .min_by(|a, b| a.distance_m.total_cmp(&b.distance_m));
         let Some(near) = near else {
-            return space.holds(tetrahedron, &at).then_some(Knot { place: 2 * index, at });
+            return space.holds(tetrahedron, &at).then_some(at);
         };
         let away = (near.on_segment - near.on_obstacle).try_normalize(1e-12)?;
         at += away * (AMPLE * radius_m - near.distance_m) * 1.5;

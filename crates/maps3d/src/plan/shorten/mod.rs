@@ -60,8 +60,15 @@ where
     P: for<'e> Probe<PlanEvent<'e>>,
 {
     let work = Work { space, corridor, radius_m };
-    let clear =
-        if radius_m > 0.0 { base::clear(space, corridor, radius_m, way)? } else { way.to_vec() };
+    let clear = if radius_m == 0.0 {
+        way.to_vec()
+    } else {
+        // The way itself stays inside by construction.
+        match base::clear(space, corridor, radius_m, way) {
+            Err(_) if work.is_clear(way) => way.to_vec(),
+            found => found?,
+        }
+    };
     if !shortens {
         let knots = if radius_m > 0.0 { work.settled(&clear).unwrap_or(clear) } else { clear };
         return Ok(Shortened { knots, programmes: 0 });
