@@ -196,6 +196,22 @@ impl Map3d for Side {
         self.stage("way_through_views", |map| map.way_through_views(hovering, radius_m))
     }
 
+    fn way_to(
+        &mut self,
+        hovering: &Hovering,
+        vertex: VertexId,
+        place_in_vertex: &Point3,
+        radius_m: f64,
+        probe: &mut dyn Map3dProbe,
+    ) -> Option<Vec<Point3>> {
+        let stages = self.stages.clone();
+        self.timed(|map| {
+            stages.by_events("way_to", probe, |probe| {
+                map.way_to(hovering, vertex, place_in_vertex, radius_m, probe)
+            })
+        })
+    }
+
     fn compare_farther(&mut self, vertex: VertexId, is_last: bool, probe: &mut dyn Map3dProbe) {
         self.timed(|map| map.compare_farther(vertex, is_last, probe));
     }
