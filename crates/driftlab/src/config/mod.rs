@@ -72,7 +72,7 @@ pub use source::{Origin, Place};
 pub use space::{
     Camera, Cave3dWorld, GlobalUnionMap3d, Maps3d, MeshWorld, Metrics3d, Office3dWorld,
     Pillars3dWorld, Planner3d, Reduction, RelativeMap3d, Replay3d, Rooms3dWorld, VoxelsMap3d,
-    World3d,
+    Ways3d, World3d,
 };
 pub use world::{
     ImageWorld, MapServerWorld, MovingAiWorld, PaperMap, PaperWorld, PolygonsWorld, ThesisMap,

@@ -1,6 +1,6 @@
 //! One map of a flight, as its rows and sums grow.
 
-use explore::{Ending, FlightExplorer, FlightGiveUp, FlightReport};
+use explore::{Ending, FlightExplorer, FlightGiveUp, FlightReport, WaysTally};
 use maps3d::Map3d;
 use metrics::FlightWitness;
 
@@ -114,6 +114,7 @@ impl Rider {
         let tally = witness.tally();
         let left = map.tally();
         let work = map.work();
+        let ways = if steers { explorer.ways() } else { WaysTally::default() };
         let accuracy = accuracy(map, witness, explorer.graph().vertex_count());
         let world_from_odom = witness.robot().world().world_from_start() * report.odom_from_body;
         // What was given up, and why, is of the map that steers.
@@ -164,6 +165,11 @@ impl Rider {
             paths: work.paths,
             paths_m: work.paths_m,
             path_shortening: (work.paths_m > 0.0).then(|| 1.0 - work.shortened_m / work.paths_m),
+            ways_asked: ways.asked,
+            ways_found: ways.found,
+            ways_m: ways.found_m,
+            ways_repeat_m: ways.repeat_m,
+            ways_flown: ways.begun,
             odometry_error_m: (witness.world_from_body().translation - world_from_odom.translation)
                 .norm(),
             termination: match holds(witness.robot().world(), witness) {

@@ -86,7 +86,8 @@ impl Probe<ConsolidationEvent<'_>> for FlightRecorder {
 
     fn emit(&mut self, event: ConsolidationEvent<'_>) {
         self.views.note(&event);
-        if !self.takes(Family::Consolidation) {
+        let family = views::family_of(&event);
+        if !self.takes(family) {
             return;
         }
         if self.level == Level::Full {
@@ -102,11 +103,18 @@ impl Probe<ConsolidationEvent<'_>> for FlightRecorder {
             if self.closed.is_none() {
                 self.next_event();
                 let line = views::line(&event);
-                self.ink.say(Family::Consolidation.name(), event.variant(), format_args!("{line}"));
+                self.ink.say(family.name(), event.variant(), format_args!("{line}"));
             }
         }
-        if let ConsolidationEvent::Settled { map, .. } = event {
-            self.views.settle(&mut self.ink, map);
+        match event {
+            ConsolidationEvent::Settled { map, .. } => self.views.settle(&mut self.ink, map),
+            ConsolidationEvent::Planned { vertex, plan, given } => {
+                let drawn_from_vertex = self.drawn_from_vertex(vertex);
+                let entity = "belief/planner/plan";
+                self.planned = true;
+                planner::draw_plan(&mut self.ink, entity, plan, given, &drawn_from_vertex);
+            }
+            _ => {}
         }
     }
 }

@@ -3,7 +3,7 @@
 use explore::FlightEvent;
 use explore::flight::Target;
 use geometry::Point3;
-use maps3d::FlightRoute;
+use maps3d::{FlightRoute, Plan};
 use pose::Se3;
 use probe::VertexId;
 
@@ -59,9 +59,29 @@ pub(super) fn draw(ink: &mut Ink, event: &FlightEvent<'_>, drawn_from_vertex: &S
     }
 }
 
+/// Draws a way through centroids, and the path that is given for it; their frame lies at `drawn_from_plan`.
+pub(super) fn draw_plan(
+    ink: &mut Ink,
+    entity: &str,
+    plan: &Plan,
+    given: &[Point3],
+    drawn_from_plan: &Se3,
+) {
+    let way = plan.way.iter().map(|knot| drawn_from_plan.transform(&knot.at)).collect();
+    let path = given.iter().map(|point| drawn_from_plan.transform(point)).collect();
+    ink.draw(&format!("{entity}/centroids"), &lines(&[way], palette::GIVEN_UP, 1.2));
+    ink.draw(&format!("{entity}/path"), &lines(&[path], palette::ROUTE, 2.5));
+}
+
+/// What a plan came to, in words.
+pub(super) fn lengths(plan: &Plan) -> String {
+    format!("{:.2} m through centroids, {:.2} m shortened", plan.straight_m, plan.path_m)
+}
+
 /// Takes the marks of the step before away.
 pub(super) fn wipe(ink: &mut Ink) {
-    for part in ["targets", "viewpoints", "goal", "way", "given_up"] {
+    let parts = ["targets", "viewpoints", "goal", "way", "given_up", "plan/centroids", "plan/path"];
+    for part in parts {
         ink.draw(&format!("belief/planner/{part}"), &rerun::Clear::flat());
     }
 }
@@ -96,6 +116,11 @@ pub(super) fn line(event: &FlightEvent<'_>) -> String {
             };
             format!("{length_m:.1} m from vertex {}: {how}", hovering.vertex)
         }
+        FlightEvent::WayWeighed { in_body, way_m, repeat_m, is_flown, .. } => format!(
+            "{way_m:.1} m through views in {} legs, {repeat_m:.1} m along the graph: {}",
+            in_body.len(),
+            if *is_flown { "flown" } else { "it repeats" }
+        ),
         FlightEvent::Flew { distance_m } => format!("{distance_m:.2} m"),
         FlightEvent::LegRepeated { from, to, length_m } => {
             format!("from {from} to {to}, {length_m:.2} m")

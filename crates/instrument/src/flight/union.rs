@@ -6,6 +6,7 @@ use pose::Se3;
 use solid::Polyhedron;
 
 use super::ink::{Faces, Ink, dots, lines, placed, segments};
+use super::planner;
 use crate::{Family, palette};
 
 /// Draws what an event of the united map is about under `belief/union`, in the frame `map`.
@@ -30,9 +31,7 @@ pub(super) fn draw(ink: &mut Ink, event: &UnionEvent<'_>) {
             ink.draw("belief/union/after", &trajectory(after, palette::CORRECTED));
         }
         UnionEvent::Planned { plan, given } => {
-            let way: Vec<Point3> = plan.way.iter().map(|knot| knot.at).collect();
-            ink.draw("belief/union/plan/centroids", &lines(&[way], palette::GIVEN_UP, 1.2));
-            ink.draw("belief/union/plan/path", &lines(&[given.to_vec()], palette::ROUTE, 2.5));
+            planner::draw_plan(ink, "belief/union/plan", plan, given, &Se3::identity());
         }
         _ => {}
     }
@@ -81,12 +80,9 @@ pub(super) fn line(event: &UnionEvent<'_>) -> String {
             format!("{} tetrahedra", tetrahedra.tetrahedra.len())
         }
         UnionEvent::Fanned { why, fans } => format!("{fans} fans in place of tetrahedra: {why}"),
-        UnionEvent::Planned { plan, given } => format!(
-            "{:.2} m through centroids, {:.2} m shortened, {} points given",
-            plan.straight_m,
-            plan.path_m,
-            given.len()
-        ),
+        UnionEvent::Planned { plan, given } => {
+            format!("{}, {} points given", planner::lengths(plan), given.len())
+        }
         UnionEvent::GivenUp { radius_m, unreachable, .. } => {
             let why = if *unreachable { "no way leads there" } else { "it was looked at" };
             format!("within {radius_m:.2} m: {why}")

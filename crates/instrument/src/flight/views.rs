@@ -9,7 +9,8 @@ use probe::VertexId;
 use solid::mesh::triangulate_facet;
 
 use super::ink::{Faces, Ink, lines, placed};
-use crate::palette;
+use super::planner;
+use crate::{Family, palette};
 
 /// Faces of one view that were closed in a row by another: there are hundreds, and they are told together.
 #[derive(Clone, Copy, Debug)]
@@ -175,6 +176,14 @@ fn open(state: &ViewState) -> (Faces, Vec<Vec<Point3>>) {
     (faces, outlines)
 }
 
+/// What an event is about.
+pub(super) fn family_of(event: &ConsolidationEvent<'_>) -> Family {
+    match event {
+        ConsolidationEvent::Fanned { .. } | ConsolidationEvent::Planned { .. } => Family::Planner,
+        _ => Family::Consolidation,
+    }
+}
+
 /// One line about an event of consolidation.
 pub(super) fn line(event: &ConsolidationEvent<'_>) -> String {
     match event {
@@ -203,6 +212,12 @@ pub(super) fn line(event: &ConsolidationEvent<'_>) -> String {
         }
         ConsolidationEvent::Retired { view } | ConsolidationEvent::Restored { view } => {
             format!("view {view}")
+        }
+        ConsolidationEvent::Fanned { volumes, from, to, .. } => {
+            format!("{} views as volumes, {:.2} m apart", volumes.len(), (to - from).norm())
+        }
+        ConsolidationEvent::Planned { plan, given, .. } => {
+            format!("{}, {} points given", planner::lengths(plan), given.len())
         }
         ConsolidationEvent::Settled { map, vertex } => {
             format!(

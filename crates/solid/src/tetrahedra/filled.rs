@@ -206,6 +206,7 @@ mod tests {
     use pose::nalgebra::UnitQuaternion;
 
     /// Two views of the hall, coplanar but for the jitter.
+    #[expect(clippy::approx_constant, reason = "the turns that the cases were found with")]
     fn two_views(seed: u64) -> crate::Polyhedron {
         let share = |step: u64| (0.37 + 0.618_033_988_75 * (5 * seed + step) as f64).fract();
         let views: Vec<_> = (0..2)

@@ -24,6 +24,6 @@ pub use camera::Camera;
 pub(super) use check::{faults, is_only_of_the_plane};
 pub use generators::{Cave3dWorld, Office3dWorld, Pillars3dWorld, Rooms3dWorld};
 pub use maps::{GlobalUnionMap3d, Maps3d, RelativeMap3d, VoxelsMap3d};
-pub use planner::{Metrics3d, Planner3d};
+pub use planner::{Metrics3d, Planner3d, Ways3d};
 pub use replay::{Reduction, Replay3d};
 pub use world::{MeshWorld, World3d};

@@ -1,6 +1,6 @@
 //! How a flying robot chooses where to go, and how its belief is judged.
 
-use explore::FlightParams;
+use explore::{FlightParams, Ways};
 use metrics::VoxelParams;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
@@ -40,6 +40,32 @@ pub struct Planner3d {
     /// How often the robot is sent to a vertex whose frontier does not get less, before it is given up.
     #[schemars(range(min = 1))]
     pub visits_in_vain: u32,
+    /// How the robot gets to somewhere that is not straight from where it hovers, where its map knows ways through the
+    /// views between.
+    pub ways: Ways3d,
+}
+
+/// How a flying robot gets to somewhere that is not straight from where it hovers.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum Ways3d {
+    /// By teach and repeat along the graph; nothing else is planned.
+    Repeat,
+    /// By teach and repeat along the graph; the way through the views between is planned, told and counted.
+    #[default]
+    Told,
+    /// By the way through the views where it is clearly shorter and each leg of it may be flown.
+    Planned,
+}
+
+impl From<Ways3d> for Ways {
+    fn from(ways: Ways3d) -> Self {
+        match ways {
+            Ways3d::Repeat => Self::Repeat,
+            Ways3d::Told => Self::Told,
+            Ways3d::Planned => Self::Planned,
+        }
+    }
 }
 
 impl Default for Planner3d {
@@ -56,6 +82,7 @@ impl Default for Planner3d {
             same_place_m: good.same_place_m,
             around_m: good.around_m,
             visits_in_vain: good.visits_in_vain,
+            ways: Ways3d::default(),
         }
     }
 }

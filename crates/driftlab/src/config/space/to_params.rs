@@ -69,6 +69,7 @@ impl From<&Config> for FlightParams {
             same_place_m: planner.same_place_m,
             around_m: planner.around_m,
             visits_in_vain: planner.visits_in_vain,
+            ways: planner.ways.into(),
             max_steps: u64::from(config.max_steps),
         }
     }
