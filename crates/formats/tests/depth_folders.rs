@@ -53,9 +53,12 @@ fn images_and_poses_meet_by_time() {
         (
             "groundtruth.txt",
             "# t\n2.01 1 0 0 0 0 0 1\n1.99 0 0 0 0 0 0 1\n5 0 0 0 0 0 0 1\n\
-          3.0 nan nan nan nan nan nan nan\n3.01 0 0 0 0 0 0 0\n",
+          3.0 nan nan nan nan nan nan nan\n3.01 0 0 0 0 0 0 0\n6 0 0 0",
         ),
-        ("depth.txt", "# depth\n3.0 depth/3.png\n2.0 depth/2.png\n5.01 depth/5.png\n"),
+        (
+            "depth.txt",
+            "# depth\nnan depth/0.png\n3.0 depth/3.png\n2.0 depth/2.png\n5.01 depth/5.png\n",
+        ),
         ("depth/2.png", ""),
     ])
     .expect("a folder");
@@ -63,8 +66,11 @@ fn images_and_poses_meet_by_time() {
     let files: Vec<&str> = folder.frames.iter().map(|frame| frame.file.as_str()).collect();
     assert_eq!(files, ["depth/2.png", "depth/5.png"], "nothing is near 3 s");
     assert!((folder.frames[0].map_from_camera.translation.x - 0.5).abs() < 1e-9, "between the two");
-    assert_eq!(folder.warnings.len(), 2);
+    assert_eq!(folder.warnings.len(), 3);
     assert_eq!(folder.warnings[0], "groundtruth.txt: 2 of 5 lines are no pose");
+    assert!(
+        folder.warnings.contains(&"depth/0.png: left out, its time in depth.txt is none".into())
+    );
 }
 
 #[test]
@@ -81,10 +87,28 @@ fn images_with_numbers_meet_poses_in_order() {
 }
 
 #[test]
+fn images_that_are_missing_leave_the_others_their_poses() {
+    let poses: String = (0..4).map(|x| format!("{x} 0 0 0 0 0 1\n")).collect();
+    let places = |names: &[&str]| {
+        let mut files: Vec<(&str, &str)> = names.iter().map(|name| (*name, "")).collect();
+        files.push(("pose.txt", &poses));
+        let folder = of(&files).expect("a folder");
+        let at = |frame: &formats::depth_folder::DepthFrame| frame.map_from_camera.translation.x;
+        (folder.frames.iter().map(at).collect::<Vec<_>>(), folder.warnings.len())
+    };
+    assert_eq!(places(&["depth_0.pgm", "depth_1.pgm", "depth_3.pgm"]), (vec![0.0, 1.0, 3.0], 1));
+    assert_eq!(places(&["depth_1.pgm", "depth_3.pgm", "depth_4.pgm"]), (vec![0.0, 2.0, 3.0], 1));
+    // Nothing says which are missing here.
+    assert_eq!(places(&["depth_7.pgm", "depth_8.pgm", "depth_9.pgm"]), (vec![0.0, 1.0, 2.0], 1));
+    assert_eq!(places(&["depth_7.pgm", "depth_8.pgm", "depth_9.pgm", "depth_11.pgm"]).1, 0);
+}
+
+#[test]
 fn what_is_wrong_is_told_with_its_file() {
     for (files, words) in [
         (&[("a.txt", "")][..], "found 1 files, none of them a depth image"),
         (&[("frame-1.depth.png", ""), ("frame-1.pose.txt", "1 2\n")], "frame-1.pose.txt: "),
+        (&[("frame-1.depth.png", ""), ("frame-1.pose.txt", "1 0 0 0\n0 1 0 0\n")], "found 2 lines"),
         (&[("frame-1.depth.png", "")], "found no depth image with a pose"),
         (&[("depth_1.pgm", ""), ("depth_2.pgm", ""), ("pose.txt", "0 0 0 0 0 0 1\n")], "1 poses"),
         (&[("depth_1.pgm", ""), ("pose.txt", "0 0 x 0 0 0 1\n")], "pose.txt: line 1, column 5"),

@@ -4,11 +4,11 @@
 //! |---|---|---|---|---|
 //! | 7-Scenes, TSDF fusion | `frame-N.depth.png` | `frame-N.pose.txt`, 4 by 4, one for each | `camera-intrinsics.txt` | 1000 |
 //! | TUM RGB-D | named by `depth.txt`, or by time in `depth/` | `groundtruth.txt`, with times | | 5000 |
-//! | numbered | `depth_N.*`, `N_depth.*`, `depth/N.*` | `pose.txt`, `poses.txt` or `trajectory.txt`, one line for each in order | `camera-intrinsics.txt` | 1000, or 5000 for `N_depth.*` |
+//! | numbered | `depth_N.*`, `N_depth.*`, `depth/N.*` | `pose.txt`, `poses.txt` or `trajectory.txt`, one line for each in order; by number where images are missing | `camera-intrinsics.txt` | 1000, or 5000 for `N_depth.*` |
 //!
 //! All poses are those of the camera in one global frame, z ahead, y down. A pose that is not one (some
 //! 7-Scenes poses are NaN) leaves its image out; so does a pose file of its own that cannot be understood, and
-//! in a TUM folder a time that no pose is near enough to. All are told. A folder without any poses has its images at one place, told too.
+//! in a TUM folder a time that no pose is near enough to. All are told. The last line of a file of poses may be cut. A folder without any poses has its images at one place, told too.
 //!
 //! Nothing here opens a file: the caller lists names and reads bytes.
 

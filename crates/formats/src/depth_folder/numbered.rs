@@ -40,7 +40,7 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<DepthFolder, DepthFolderErro
                 let file = (*file).to_owned();
                 return Err(DepthFolderError::TooFewPoses { file, found, expected });
             }
-            listed
+            by_image(&images, listed, file, &mut folder.warnings)
         }
     };
     for (at, ((_, file), pose)) in images.into_iter().zip(listed).enumerate() {
@@ -52,6 +52,33 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<DepthFolder, DepthFolderErro
         }
     }
     Ok(folder)
+}
+
+/// The pose of each image, of a file that has more lines: where the last image is that of the last line, counted from 0
+/// or from 1, images are missing and the number of an image is that of its line; else lines are taken in order.
+fn by_image(
+    images: &[(u64, String)],
+    listed: Vec<Option<Se3>>,
+    file: &str,
+    warnings: &mut Vec<String>,
+) -> Vec<Option<Se3>> {
+    let (lines, last) = (listed.len() as u64, images.last().map_or(0, |(number, _)| *number));
+    if lines == images.len() as u64 {
+        return listed;
+    }
+    let count = images.len();
+    let first = match lines {
+        _ if last + 1 == lines => 0,
+        _ if last == lines && images[0].0 > 0 => 1,
+        _ => {
+            warnings.push(format!("{file}: {lines} poses for {count} images, taken in order"));
+            return listed;
+        }
+    };
+    warnings
+        .push(format!("{file}: {lines} poses for {count} images, taken by number from {first}"));
+    let of = |number: u64| listed[usize::try_from(number - first).unwrap_or(usize::MAX)];
+    images.iter().map(|(number, _)| of(*number)).collect()
 }
 
 fn is_tum(stem: &str) -> bool {

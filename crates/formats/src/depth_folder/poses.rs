@@ -8,13 +8,15 @@ use sensing::Camera;
 
 use crate::FormatError;
 use crate::binary::refuse_binary;
+use crate::error::Position;
 use crate::lines::with_line_feeds;
 use crate::pose_graph::Lexer;
 
 /// How far the columns of a rotation may be from unit length and square to each other.
 const SQUARE: f64 = 1e-2;
 
-/// The numbers of a file, line by line; each line has as many as are wanted.
+/// The numbers of a file, line by line; each line has as many as are wanted. The last line may be cut: a log that
+/// broke off ends so.
 fn rows(
     bytes: &[u8],
     counts: RangeInclusive<usize>,
@@ -25,24 +27,38 @@ fn rows(
     let mut lexer = Lexer::new(&bytes);
     let mut rows = Vec::new();
     while lexer.next_line() {
-        let mut row = Vec::new();
-        while !lexer.at_end_of_line() {
-            row.push(lexer.any_float(expected)?);
+        match row(&mut lexer, &counts, expected) {
+            Ok(row) => rows.push(row),
+            Err(_) if !rows.is_empty() && !lexer.next_line() => break,
+            Err(error) => return Err(error),
         }
-        if !counts.contains(&row.len()) {
-            return Err(lexer.unexpected(expected));
-        }
-        rows.push(row);
     }
     Ok(rows)
+}
+
+/// The numbers of the line at hand.
+fn row(
+    lexer: &mut Lexer<'_>,
+    counts: &RangeInclusive<usize>,
+    expected: &str,
+) -> Result<Vec<f64>, FormatError> {
+    let mut row = Vec::new();
+    while !lexer.at_end_of_line() {
+        row.push(lexer.any_float(expected)?);
+    }
+    if counts.contains(&row.len()) { Ok(row) } else { Err(lexer.unexpected(expected)) }
 }
 
 /// The numbers of a square matrix of a file, `size` by `size`.
 fn square(bytes: &[u8], size: usize, expected: &str) -> Result<Vec<Vec<f64>>, FormatError> {
     let rows = rows(bytes, size..=size, expected)?;
-    match rows.len() == size {
-        true => Ok(rows),
-        false => Err(Lexer::new(&with_line_feeds(bytes)).unexpected(expected)),
+    match rows.len() {
+        found if found == size => Ok(rows),
+        found => Err(FormatError::unexpected(
+            Position::Line { line: found.max(1), column: 1 },
+            format!("{found} lines of numbers"),
+            expected,
+        )),
     }
 }
 
@@ -96,7 +112,7 @@ pub(super) fn camera(bytes: &[u8]) -> Result<Camera, FormatError> {
     }
 }
 
-/// Files and their times: `time name` in each line.
+/// Files and their times: `time name` in each line; a time need not be finite.
 pub(super) fn timed_files(bytes: &[u8]) -> Result<Vec<(f64, String)>, FormatError> {
     const EXPECTED: &str = "a time and a file in each line";
     refuse_binary(bytes, EXPECTED)?;
@@ -104,7 +120,7 @@ pub(super) fn timed_files(bytes: &[u8]) -> Result<Vec<(f64, String)>, FormatErro
     let mut lexer = Lexer::new(&bytes);
     let mut files = Vec::new();
     while lexer.next_line() {
-        let [time] = lexer.floats(EXPECTED)?;
+        let time = lexer.any_float(EXPECTED)?;
         lexer.at_end_of_line();
         let name = String::from_utf8_lossy(lexer.word()).into_owned();
         if name.is_empty() {

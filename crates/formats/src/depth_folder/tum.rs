@@ -41,6 +41,10 @@ pub(super) fn read(listing: &Listing<'_>) -> Result<Option<DepthFolder>, DepthFo
         folder.warnings.push(format!("{POSES}: {none} of {} lines are no pose", listed.len()));
     }
     for (stamp_secs, file) in images {
+        if !stamp_secs.is_finite() {
+            folder.warnings.push(format!("{file}: left out, its time in {IMAGES} is none"));
+            continue;
+        }
         match at_time(&trajectory, stamp_secs) {
             Some(map_from_camera) => {
                 folder.frames.push(DepthFrame { file, stamp_secs, map_from_camera });

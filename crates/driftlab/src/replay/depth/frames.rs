@@ -109,9 +109,9 @@ impl DepthFrames {
         all
     }
 
-    /// Images that were left out since they have no pose near enough, or too few readings.
-    pub fn left_out(&self) -> u64 {
-        self.without_pose + self.without_readings
+    /// Images that were left out since no pose is near enough, and since they have too few readings.
+    pub fn left_out(&self) -> [u64; 2] {
+        [self.without_pose, self.without_readings]
     }
 
     /// The share that was read; 0 where that is not known.
@@ -156,7 +156,14 @@ impl DepthFrames {
                         let at = self.poses.partition_point(|(secs, _)| *secs <= stamp_secs);
                         self.poses.insert(at, (stamp_secs, log_from_camera));
                     }
-                    false => self.told.push(format!("the pose at {stamp_secs:.3} s is none")),
+                    false => {
+                        let far_m = log_from_camera.translation.norm();
+                        let found = format!("found one {far_m:.3e} m from the origin of the log");
+                        let expected = format!("expected at most {FARTHEST_M:.0e} m");
+                        self.told.push(format!(
+                            "the pose at {stamp_secs:.3} s is left out: {found}, {expected}"
+                        ));
+                    }
                 }
             }
             Content::Camera(camera) if self.camera.is_none() => self.camera = Some(camera),

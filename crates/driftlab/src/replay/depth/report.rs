@@ -13,10 +13,12 @@ pub struct DepthMetrics {
     pub seed: u64,
     /// Depth images that became views: vertices of the pose graph.
     pub keyframes: u64,
-    /// Depth images of the log.
+    /// Depth images of the log that could be read, and in a folder have a pose. `replay3d.every` passes over some.
     pub images: u64,
-    /// Of these, left out: no pose is near enough in time, or there are too few readings.
-    pub left_out: u64,
+    /// Of these, left out because no pose is near enough in time.
+    pub without_pose: u64,
+    /// Of these, left out because they have too few readings.
+    pub without_readings: u64,
     /// Distance that the camera was carried, metres.
     pub distance_m: f64,
     /// Each map's result by its name.

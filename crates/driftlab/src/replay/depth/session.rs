@@ -66,7 +66,9 @@ pub fn replay_depth(
     let maps = DepthMap::all(config, &settings)?;
     let Some(first) = frames.next_frame()? else {
         let (images, poses) = frames.counts();
-        let found = format!("found {images} depth images and {poses} poses, none for an image");
+        let [without_pose, without_readings] = frames.left_out();
+        let why = format!("{without_pose} have no pose, {without_readings} too few readings");
+        let found = format!("found {images} depth images and {poses} poses; {why}");
         return Err(frames.refused(&format!("{found}; expected depth images with poses")));
     };
     // The first camera looks along x.
@@ -242,7 +244,8 @@ impl Course {
             seed: config.seed,
             keyframes: self.poses.len() as u64,
             images: frames.counts().0,
-            left_out: frames.left_out(),
+            without_pose: frames.left_out()[0],
+            without_readings: frames.left_out()[1],
             distance_m: self.distance_m,
             maps: maps.map(|(side, (map, _))| (side.name.to_owned(), map.clone())).collect(),
         }
