@@ -139,8 +139,9 @@ pub(crate) fn costs(study: &Study) -> TextTable {
 }
 
 /// Numbers that tell how right a map and its poses are, and what a column calls them.
-const ACCURACY: [(&str, &str); 4] = [
+const ACCURACY: [(&str, &str); 5] = [
     ("free_iou", "free space, IoU"),
+    ("free_wrong_share", "taken for free wrongly"),
     ("wall_distance_m", "walls off by, m"),
     ("ate_m", "poses off by (ATE), m"),
     ("map_invalid", "map invalid, times"),
