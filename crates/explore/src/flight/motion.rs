@@ -56,7 +56,12 @@ impl FlightExplorer {
             seen.add(yaw_rad, vertex_from_camera, &image);
         }
         let vertex = hovering.vertex;
-        self.margins_known.retain(|(of, _), _| *of != vertex);
+        // Another look changes what is known of flights from here, and of no others.
+        let of_vertex = (vertex, [u64::MIN; 3])..=(vertex, [u64::MAX; 3]);
+        let stale: Vec<_> = self.margins_known.range(of_vertex).map(|(key, _)| *key).collect();
+        for key in stale {
+            self.margins_known.remove(&key);
+        }
         let look = Look { vertex: hovering.vertex, vertex_from_camera, image: &image };
         for map in &mut self.maps {
             self.refused_looks += u64::from(map.looked(&look, &mut *probe).is_err());

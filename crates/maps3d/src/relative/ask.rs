@@ -215,7 +215,7 @@ impl RelativeMap {
         point_in_body: &Point3<f64>,
     ) -> Known {
         let in_root = hovering.vertex_from_body.transform(point_in_body);
-        let behind = Shape { inset_px: 0.0, ..shape_of(Cause::Wall, &self.params) };
+        let behind = Shape { inset_px: 0.0, ..shape_of(Cause::Wall, 0.0, &self.params) };
         let mut known = Known::Unknown;
         for row in scope.placed() {
             let in_vertex = row.root_from_vertex.inverse_transform(&in_root);

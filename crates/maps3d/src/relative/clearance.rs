@@ -121,7 +121,7 @@ impl RelativeMap {
         let mut work = std::mem::take(&mut self.work);
         let (mut all, mut rings) = (StepRings::new(), StepRings::new());
         let numbers = self.views_of(vertex);
-        let inside = (Cause::Inside, shape_of(Cause::Inside, &self.params));
+        let inside = (Cause::Inside, shape_of(Cause::Inside, 0.0, &self.params));
         for &view in numbers {
             let state = &self.views[view as usize];
             let vertex_from_camera = &state.vertex_from_camera;

@@ -46,14 +46,15 @@ pub(super) struct Pair {
 /// Why frontier is closed as looks and edges come.
 pub(super) const USUAL: [Cause; 2] = [Cause::Inside, Cause::Wall];
 
-/// The shape in which a volume closes, by cause.
-pub(super) fn shape_of(cause: Cause, params: &RelativeParams) -> Shape {
-    let inset_px = params.inset_px;
-    match cause {
-        Cause::Inside => Shape { inset_px, shift_m: -params.shrink_m },
-        Cause::Wall => Shape { inset_px, shift_m: params.wall_closing_m },
-        Cause::Behind => Shape { inset_px, shift_m: 2.0 * params.wall_closing_m },
-    }
+/// The shape in which a volume closes, by cause; `behind_m` is how far behind its obstacles, for
+/// [`Cause::Behind`] alone.
+pub(super) fn shape_of(cause: Cause, behind_m: f32, params: &RelativeParams) -> Shape {
+    let shift_m = match cause {
+        Cause::Inside => -params.shrink_m,
+        Cause::Wall => params.wall_closing_m,
+        Cause::Behind => behind_m.into(),
+    };
+    Shape { inset_px: params.inset_px, shift_m }
 }
 
 /// Where drift may have moved frontier by more than this, what stands before it says nothing, metres.
@@ -91,10 +92,7 @@ impl RelativeMap {
             let mut work = std::mem::take(&mut self.work);
             let (view, against) =
                 (&self.views[pair.view as usize], &self.views[pair.against as usize]);
-            let mut shape = shape_of(cause, &self.params);
-            if cause == Cause::Behind {
-                shape.shift_m = behind_m.into();
-            }
+            let shape = shape_of(cause, behind_m, &self.params);
             work.close(view, &against.volume, pair, (cause, shape), |face| counts[face]);
             // Looks of one vertex are exact to each other. What would be given up is closed by whoever can.
             if view.vertex != against.vertex && !is_last {

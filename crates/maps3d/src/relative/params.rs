@@ -1,5 +1,7 @@
 //! What can be chosen about the relative map of space.
 
+use std::f64::consts::FRAC_PI_2;
+
 use sensing::Camera;
 
 use crate::reduce::{InverseDepth, Method, ReduceOptions, Stop};
@@ -92,7 +94,6 @@ impl RelativeParams {
             ("inset_px", self.inset_px),
             ("wall_closing_m", self.wall_closing_m),
             ("contradiction_m", self.contradiction_m),
-            ("contradiction_share", self.contradiction_share),
             ("sliver_m2", self.sliver_m2),
         ] {
             if !(0.0..=1e6).contains(&found) {
@@ -115,10 +116,60 @@ impl RelativeParams {
                 expected: "0 or more, below 1 pixel",
             });
         }
+        if !(0.0..=1.0).contains(&self.contradiction_share) {
+            let (option, found) = ("contradiction_share", self.contradiction_share);
+            return Err(Maps3dError::Option { option, found, expected: "a share from 0 to 1" });
+        }
+        if !(0.0..=FRAC_PI_2).contains(&self.grazing_rad) {
+            let (option, found) = ("grazing_rad", self.grazing_rad);
+            return Err(Maps3dError::Option { option, found, expected: "from 0 to a right angle" });
+        }
         if !(0.01..=1e6).contains(&self.point_spacing_m) {
             let (option, found) = ("point_spacing_m", self.point_spacing_m);
             return Err(Maps3dError::Option { option, found, expected: "from 0.01 to 1e6 m" });
         }
         Ok(())
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_is_out_of_its_range_is_named() {
+        assert!(RelativeParams::default().check().is_ok());
+        type Set = fn(&mut RelativeParams, f64);
+        let fields: [(&str, Set, [f64; 2], [f64; 3]); 4] = [
+            ("grazing_rad", |p, x| p.grazing_rad = x, [0.0, 1.5], [-0.1, 2.0, f64::NAN]),
+            (
+                "contradiction_share",
+                |p, x| p.contradiction_share = x,
+                [0.0, 1.0],
+                [-0.1, 1.1, f64::NAN],
+            ),
+            (
+                "contradiction_m",
+                |p, x| p.contradiction_m = x,
+                [0.0, 3.0],
+                [-0.1, 1e7, f64::INFINITY],
+            ),
+            ("place_weight", |p, x| p.place_weight = x, [0.001, 10.0], [0.0, 1e4, f64::NAN]),
+        ];
+        for (name, set, good, bad) in fields {
+            for value in good {
+                let mut params = RelativeParams::default();
+                set(&mut params, value);
+                assert!(params.check().is_ok(), "{name} {value}");
+            }
+            for value in bad {
+                let mut params = RelativeParams::default();
+                set(&mut params, value);
+                let refused = params.check();
+                let is_named =
+                    matches!(refused, Err(Maps3dError::Option { option, .. }) if option == name);
+                assert!(is_named, "{name} {value}: {refused:?}");
+            }
+        }
     }
 }

@@ -7,7 +7,7 @@ use posegraph::{PoseGraph, RelativePose};
 use probe::{EdgeId, VertexId};
 
 use super::RelativeMap;
-use super::book::{Cause, ClosingId};
+use super::book::ClosingId;
 use super::events::ConsolidationEvent;
 use super::ledger::OpenPart;
 use super::map::empty_skeleton;
@@ -82,10 +82,7 @@ impl RelativeMap {
             let camera_from_against = state.vertex_from_camera.inverse_mul(&vertex_from_other);
             let pair = Pair { view, against: closing.by, camera_from_against, odometry_m: 0.0 };
             let wanted = |face: usize| of_one.iter().any(|(_, f)| usize::from(*f) == face);
-            let mut shape = shape_of(closing.cause, &self.params);
-            if closing.cause == Cause::Behind {
-                shape.shift_m = closing.behind_m.into();
-            }
+            let shape = shape_of(closing.cause, closing.behind_m, &self.params);
             work.close(state, &other.volume, &pair, (closing.cause, shape), wanted);
             for (face, after) in work.changed.drain(..) {
                 self.views[view as usize].open[face] = after;
