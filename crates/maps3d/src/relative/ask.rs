@@ -10,6 +10,7 @@ use super::book::Cause;
 use super::events::ConsolidationEvent;
 use super::pair::shape_of;
 use super::parts::FrontierPart;
+use super::state::GivenUp;
 use super::volume::{LocalVolume, Shape};
 use super::{RelativeMap, ViewState};
 use crate::map::points_on;
@@ -139,19 +140,24 @@ impl RelativeMap {
         self.cover(vertex);
         self.take_scope(vertex, probe);
         let rows = if everywhere { self.scope.placed().len() } else { 1 };
+        let first = self.given_up.len() as u32;
         if everywhere {
             self.given_up.extend(places.iter().map(|&place| (vertex, place, radius_m)));
         }
-        for row in &self.scope.placed()[..rows] {
+        for (at, row) in self.scope.placed()[..rows].iter().enumerate() {
+            let has_views = self.views_of.get(row.vertex).is_some_and(|views| !views.is_empty());
+            let path = (at > 0 && has_views)
+                .then(|| self.book.remember(self.scope.path_between(&self.skeleton, at, 0)));
             for &view in self.views_of.get(row.vertex).into_iter().flatten() {
                 let state = &mut self.views[view as usize];
                 let (centre, ball_m) = state.open_ball;
                 let mut is_near = false;
-                for place in &places {
+                for (place, number) in places.iter().zip(first..) {
                     let in_vertex = row.root_from_vertex.inverse_transform(place);
-                    let in_camera = state.vertex_from_camera.inverse_transform(&in_vertex);
-                    state.given_up.push((in_camera, radius_m));
-                    is_near |= (in_camera - centre).norm() <= ball_m + radius_m;
+                    let place_in_camera = state.vertex_from_camera.inverse_transform(&in_vertex);
+                    let over = path.map(|path| (path, number));
+                    state.given_up.push(GivenUp { place_in_camera, radius_m, over });
+                    is_near |= (place_in_camera - centre).norm() <= ball_m + radius_m;
                 }
                 if state.counts() && is_near {
                     state.measure(self.params.sliver_m2);

@@ -1,11 +1,12 @@
 //! A look comes in: it becomes a view, and is held against those around.
 
 use pose::Se3;
-use probe::{Probe, VertexId};
+use probe::Probe;
 
 use super::book::Cause;
 use super::events::ConsolidationEvent;
 use super::pair::{Pair, USUAL};
+use super::state::GivenUp;
 use super::volume::LocalVolume;
 use super::{RelativeMap, ViewState};
 use crate::events::Relay;
@@ -142,22 +143,27 @@ impl RelativeMap {
 
     /// A new view hears of places in scope that were given up for every view.
     fn hear_of_given_up(&mut self, view: u32) {
-        let mut places = Vec::new();
-        let state = &self.views[view as usize];
-        for row in self.scope.placed() {
-            let of_row = |vertex: VertexId| vertex == row.vertex;
-            for (_, place, radius_m) in
-                self.given_up.iter().filter(|(vertex, _, _)| of_row(*vertex))
-            {
-                let in_root = row.root_from_vertex.transform(place);
-                places.push((state.vertex_from_camera.inverse_transform(&in_root), *radius_m));
-            }
+        let mut heard = false;
+        for number in 0..self.given_up.len() as u32 {
+            heard |= self.hear_of(view, number);
         }
-        if !places.is_empty() {
-            let state = &mut self.views[view as usize];
-            state.given_up = places;
-            state.measure(self.params.sliver_m2);
+        if heard {
+            self.views[view as usize].measure(self.params.sliver_m2);
         }
+    }
+
+    /// A view on the root of the scope at hand hears of one such place; whether that is in scope.
+    pub(super) fn hear_of(&mut self, view: u32, number: u32) -> bool {
+        let (vertex, place, radius_m) = self.given_up[number as usize];
+        let rows = self.scope.placed();
+        let Some(at) = rows.iter().position(|row| row.vertex == vertex) else { return false };
+        let in_root = rows[at].root_from_vertex.transform(&place);
+        let over = (at > 0)
+            .then(|| (self.book.remember(self.scope.path_between(&self.skeleton, 0, at)), number));
+        let state = &mut self.views[view as usize];
+        let place_in_camera = state.vertex_from_camera.inverse_transform(&in_root);
+        state.given_up.push(GivenUp { place_in_camera, radius_m, over });
+        true
     }
 }
 

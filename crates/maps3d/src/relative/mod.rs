@@ -57,5 +57,5 @@ pub use ledger::OpenPart;
 pub use map::RelativeMap;
 pub use params::RelativeParams;
 pub use parts::{FrontierPart, Piece};
-pub use state::ViewState;
+pub use state::{GivenUp, ViewState};
 pub use volume::LocalVolume;

@@ -3,7 +3,7 @@
 use geometry::planar::overlay::StepRings;
 use nalgebra::{Point3, Vector3};
 use pose::Se3;
-use probe::VertexId;
+use probe::{PathId, VertexId};
 
 use super::book::ClosingId;
 use super::grid::FaceGrid;
@@ -40,10 +40,22 @@ pub struct ViewState {
     pub given_up_m2: f64,
     /// A ball around all that is open, in the frame `camera`: centre and radius, metres.
     pub open_ball: (Point3<f64>, f64),
-    /// Places about which frontier was given up, with the radius; in the frame `camera`, metres.
-    pub given_up: Vec<(Point3<f64>, f64)>,
+    /// Balls in which frontier was given up.
+    pub given_up: Vec<GivenUp>,
     /// Whether it is out of later comparisons.
     pub retired: bool,
+}
+
+/// A ball in which frontier of a view was given up.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GivenUp {
+    /// Its centre, in the frame `camera`, metres.
+    pub place_in_camera: Point3<f64>,
+    /// Its radius, metres.
+    pub radius_m: f64,
+    /// The path along which another vertex told of it, and the number of what it told; `None` for what was given up
+    /// at the vertex of the view.
+    pub over: Option<(PathId, u32)>,
 }
 
 /// A small piece of open frontier, in the frame `camera`.
@@ -115,7 +127,7 @@ impl ViewState {
 
     fn is_given_up(&self, point_in_camera: &Point3<f64>) -> bool {
         let is_near =
-            |(place, radius_m): &(Point3<f64>, f64)| (point_in_camera - place).norm() <= *radius_m;
+            |ball: &GivenUp| (point_in_camera - ball.place_in_camera).norm() <= ball.radius_m;
         self.given_up.iter().any(is_near)
     }
 
@@ -167,6 +179,6 @@ impl ViewState {
             + self.closings.capacity() * size_of::<(u16, ClosingId)>()
             + self.parts.capacity() * size_of::<FrontierPart>()
             + parts
-            + self.given_up.capacity() * size_of::<(Point3<f64>, f64)>()
+            + self.given_up.capacity() * size_of::<GivenUp>()
     }
 }

@@ -34,6 +34,7 @@ impl RelativeMap {
         }
         self.restore_all(probe);
         self.rebuild_skeleton(graph);
+        self.hear_again(edge, probe);
         let vertices: BTreeSet<VertexId> =
             opened.iter().map(|&view| self.views[view as usize].vertex).collect();
         for vertex in vertices {
@@ -97,6 +98,26 @@ impl RelativeMap {
             if after != before {
                 probe.emit(ConsolidationEvent::Reopened { view, state, face, before, after, edge });
             }
+        }
+    }
+
+    /// What was given up, and told to views along an edge, is told along other ways.
+    fn hear_again(&mut self, edge: EdgeId, probe: &mut dyn Map3dProbe) {
+        let mut relying: Vec<(u32, u32)> = Vec::new();
+        for (view, state) in self.views.iter_mut().enumerate() {
+            state.given_up.retain(|ball| {
+                let over = ball.over.filter(|(path, _)| self.book.edges(*path).contains(&edge));
+                relying.extend(over.map(|(_, number)| (view as u32, number)));
+                over.is_none()
+            });
+        }
+        for of_one in relying.chunk_by(|a, b| a.0 == b.0) {
+            let view = of_one[0].0;
+            self.take_scope(self.views[view as usize].vertex, probe);
+            for &(_, number) in of_one {
+                self.hear_of(view, number);
+            }
+            self.views[view as usize].measure(self.params.sliver_m2);
         }
     }
 

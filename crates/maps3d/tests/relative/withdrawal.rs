@@ -1,7 +1,7 @@
 //! A withdrawn place edge opens what relied on it, and nothing else.
 
-use maps3d::Map3d;
 use maps3d::relative::{OpenPart, RelativeParams};
+use maps3d::{Hovering, Map3d};
 use pose::Se3;
 use posegraph::EdgeKind;
 use probe::{Off, VertexId};
@@ -96,4 +96,34 @@ fn paths_lead_from_who_is_closed_to_who_closes() {
         }
     }
     assert!(walked > 20);
+}
+
+#[test]
+fn what_was_given_up_over_a_withdrawn_edge_is_told_along_other_ways_or_forgotten() {
+    for (radius_m, is_reached) in [(7.0, false), (30.0, true)] {
+        let params = RelativeParams { consolidation_radius_m: radius_m, ..bare(120) };
+        let (mut fed, place) = walked(&params, true);
+        let place = place.expect("an edge");
+        let here = Hovering { vertex: VertexId(0), vertex_from_body: Se3::identity() };
+        // All about the last view.
+        let there = places()[0].inverse_mul(&places()[4]).translation;
+        fed.map.give_up(&here, &[there.into()], 20.0, true, &mut Off);
+        let balls = |fed: &Fed, view: usize| fed.map.views()[view].given_up.clone();
+        let (own, last) = (balls(&fed, 0), balls(&fed, 4));
+        assert!(own.len() == 1 && own[0].over.is_none());
+        let (path, number) = last[0].over.expect("it was told");
+        assert!(fed.map.book().edges(path) == [place] && number == 0);
+        assert!(fed.map.frontier_at(VertexId(4)) == 0.0);
+        fed.graph.withdraw(place).expect("a place edge");
+        fed.map.edge_withdrawn(&fed.graph, place, &mut Off);
+        assert_eq!(balls(&fed, 0), own);
+        let now = balls(&fed, 4);
+        assert_eq!(now.len(), usize::from(is_reached));
+        assert_eq!(fed.map.frontier_at(VertexId(4)) == 0.0, is_reached);
+        for ball in now {
+            let (path, number) = ball.over.expect("it was told");
+            assert!(number == 0 && fed.map.book().edges(path).len() == 4);
+            assert!((ball.place_in_camera - last[0].place_in_camera).norm() < 1e-9);
+        }
+    }
 }
