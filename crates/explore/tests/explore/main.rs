@@ -2,6 +2,7 @@
 
 mod choices;
 mod ending;
+mod flown;
 mod heard;
 mod options;
 mod sketch;
