@@ -3,8 +3,9 @@
 use pose::Se3;
 use pose::nalgebra::{UnitQuaternion, Vector3};
 use probe::Off;
+use solid::boolean::Provenance;
 use solid::boolean::{BooleanResult, JITTER_M, ManifoldKernel, Options, boolean_told};
-use solid::{Label, Operation, Point3, Polyhedron, check};
+use solid::{Label, Operation, Point3, Polyhedron, check, unite};
 
 const ALL: [Operation; 4] = [
     Operation::Union,
@@ -69,5 +70,40 @@ fn what_is_cut_off_spoils_nothing() {
         let result = told(&a, &b, Operation::Intersection, 0.0);
         assert!(check(&result.mesh).is_valid());
         assert!((result.mesh.volume_m3() - 0.125).abs() < 1e-12);
+    }
+}
+
+/// Boxes with faces in one plane but for the rounding of a turn: what the engine makes of some meets itself.
+#[test]
+fn unions_of_many_are_as_sound_as_those_of_two() {
+    let boxes = [
+        ([0.0, 0.0, 0.0], [4.0, 4.0, 4.0]),
+        ([2.0, 0.0, 1.0], [6.0, 4.0, 3.0]),
+        ([1.0, 0.0, 0.0], [3.0, 2.0, 4.0]),
+        ([4.0, 1.0, 1.0], [5.0, 4.0, 4.0]),
+        ([0.0, 2.0, 1.0], [6.0, 3.0, 4.0]),
+        ([0.0, 4.0, 0.0], [3.0, 5.0, 4.0]),
+    ];
+    for shift in 0..boxes.len() {
+        for count in 2..=boxes.len() {
+            let order = (0..count).map(|i| boxes[(i + shift) % boxes.len()]);
+            let (exact, views): (Vec<_>, Vec<_>) = order
+                .map(|(low, high)| cuboid(low, high))
+                .map(|mesh| (mesh.clone(), turned(&mesh)))
+                .unzip();
+            let exact = unite(&exact, &Options::default()).expect("boxes");
+            for provenance in [Provenance::Labels, Provenance::Origins] {
+                let options = Options { provenance, ..Options::default() };
+                let map = unite(&views, &options).expect("boxes");
+                let what = format!("{count} from {shift}, {provenance:?}");
+                assert!(check(&map).is_valid(), "{what}: {:?}", check(&map).defects.first());
+                assert!((map.volume_m3() - exact.volume_m3()).abs() < 1e-9, "{what}");
+                if let Some(origins) = map.origins() {
+                    assert!(origins.iter().all(|origin| (origin.view as usize) < count), "{what}");
+                    assert!(origins.iter().any(|origin| origin.view as usize == count - 1));
+                }
+                assert_eq!(map.origins().is_some(), provenance == Provenance::Origins, "{what}");
+            }
+        }
     }
 }

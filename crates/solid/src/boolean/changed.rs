@@ -99,7 +99,7 @@ pub(super) fn thin(mesh: &Polyhedron) -> Vec<u32> {
 pub(super) fn is_inherited(
     mesh: &Polyhedron,
     crossed: &[[u32; 2]],
-    operands: [&Polyhedron; 2],
+    operands: &[&Polyhedron],
 ) -> bool {
     crossed.iter().any(|pair| {
         let [a, b] = pair.map(|face| Aabb::around(mesh.corners(face as usize)));

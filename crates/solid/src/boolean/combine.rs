@@ -134,7 +134,7 @@ pub fn boolean_told<K: Kernel>(
 }
 
 /// The operands, and which way their faces look in the result.
-fn looking<'a>(
+pub(super) fn looking<'a>(
     a: &'a Polyhedron,
     b: &'a Polyhedron,
     operation: Operation,

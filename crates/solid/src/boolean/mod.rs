@@ -8,7 +8,7 @@
 //! | 4. numbers become labels and origins again; parts without volume and flat faces go | `leaves.rs` |
 //! | 5. a frontier face is cut along the borders of what obstacle faces of the operands, looking the same way, cover of it; edges and faces are divided where vertices lie on them; pieces of frontier that coincide with obstacle become obstacle | `covered.rs`, `touching.rs`, `coincide.rs`, `surgery.rs` |
 //! | 6. slivers go, where that is asked for ([`clean`](crate::clean)) | `combine.rs` |
-//! | 7. many views are united one by one, each jittered first where they may be exactly coplanar | `unite.rs`, `jitter.rs` |
+//! | 7. many views are united one by one, each jittered first where they may be exactly coplanar; where the map meets itself, by steps 2 to 5 for each | `unite.rs`, `jitter.rs` |
 //!
 //! Operands in general position, whose surfaces only pass through each other, need none of what steps 3 to 5
 //! do about contacts (`contacts.rs`). Every result is looked at for faces that meet, as far as it is new

@@ -43,6 +43,13 @@ impl Trial {
     }
 }
 
+/// Faces of a mesh that meet where they should not, in pairs, or are flat, twice: some of them where there are any.
+pub(super) fn all_crossed(mesh: &Polyhedron) -> Vec<[u32; 2]> {
+    let flat = flat_faces(mesh).into_iter().map(|face| [face, face]);
+    let meeting = crossings(mesh, MOST_CROSSED).into_iter().map(|pair| pair.faces);
+    flat.chain(meeting).take(MOST_CROSSED).collect()
+}
+
 /// The trial that is the result, and how many others there were.
 pub(super) struct Taken {
     pub(super) trial: Trial,
@@ -150,10 +157,8 @@ impl<'a, K: Kernel> Trials<'a, K> {
     /// Whether faces of a trial meet where faces of an operand do: then so do those of every other.
     fn inherits(&self, trial: &Trial) -> bool {
         !trial.is_sound()
-            && (is_inherited(&trial.mesh, &trial.crossed, self.operands) || {
-                let all = crossings(&trial.mesh, MOST_CROSSED).into_iter().map(|pair| pair.faces);
-                is_inherited(&trial.mesh, &all.collect::<Vec<_>>(), self.operands)
-            })
+            && (is_inherited(&trial.mesh, &trial.crossed, &self.operands)
+                || is_inherited(&trial.mesh, &all_crossed(&trial.mesh), &self.operands))
     }
 
     /// One trial, with the second operand moved by `jitter_m`.
@@ -245,9 +250,7 @@ impl<'a, K: Kernel> Trials<'a, K> {
         let mesh = self.settled(combined, jitter_m, contact, &mut Off);
         let crossed = if self.contacts == Contacts::Rounded && jitter_m == 0.0 {
             // Faces that the engine left as they were may meet, too.
-            let flat = flat_faces(&mesh).into_iter().map(|face| [face, face]);
-            let meeting = crossings(&mesh, MOST_CROSSED).into_iter().map(|pair| pair.faces);
-            flat.chain(meeting).take(MOST_CROSSED).collect()
+            all_crossed(&mesh)
         } else {
             let mut some = if contact { changed(&mesh, used) } else { thin(&mesh) };
             some.extend(at);

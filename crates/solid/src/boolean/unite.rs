@@ -2,10 +2,12 @@
 
 use probe::{Off, Probe};
 
-use super::combine::{cleaned, labelled, refused, settled};
+use super::changed::is_inherited;
+use super::combine::{cleaned, labelled, looking, refused, settled};
 use super::leaves::tidied;
 use super::tags::Tags;
-use super::{BooleanEvent, Kernel, ManifoldKernel, Operation, Options, Refusal};
+use super::trials::{Trials, all_crossed};
+use super::{BooleanEvent, Kernel, ManifoldKernel, Operation, Options, Provenance, Refusal};
 use crate::{Polyhedron, SolidError};
 
 /// Unites views one by one; see [`unite_with`].
@@ -23,6 +25,9 @@ pub fn unite(views: &[Polyhedron], options: &Options) -> Result<Polyhedron, Soli
 /// empty. `options.jitter_m` has no effect here: give [`jittered`](super::jittered) views. Each union costs
 /// O(n log n) for n faces of the map so far and the view. A probe that is on makes it costlier: each
 /// intermediate map is given back and looked at.
+///
+/// Where the map meets itself and no view does there, all is done once more by [`boolean`](super::boolean), two
+/// operands at a time, which costs several times as much.
 ///
 /// # Errors
 /// [`SolidError::Operand`] for a view that is no closed 2-manifold, with its first defect.
@@ -57,10 +62,46 @@ pub fn unite_with(
         });
     }
     let combined = map.map(|map| kernel.give(&map)).unwrap_or_default();
-    let mesh = tidied(labelled(combined, &tags, operation.name())?);
-    let looking: Vec<_> = views.iter().map(|view| (view, 1.0)).collect();
-    let mesh = settled(mesh, &looking, options.coincident_m, probe);
+    let combined = tidied(labelled(combined, &tags, operation.name())?);
+    let all: Vec<_> = views.iter().map(|view| (view, 1.0)).collect();
+    let mut before = probe.on().then(|| combined.clone());
+    let mut mesh = settled(combined, &all, options.coincident_m, &mut Off);
+    let crossed = all_crossed(&mesh);
+    if !crossed.is_empty() && !is_inherited(&mesh, &crossed, &views.iter().collect::<Vec<_>>()) {
+        let by_trials = one_by_one(views, options)?;
+        let settled = settled(by_trials.clone(), &all, options.coincident_m, &mut Off);
+        if all_crossed(&settled).is_empty() {
+            before = probe.on().then_some(by_trials);
+            mesh = settled;
+        }
+    }
+    if let Some(before) = before {
+        // What was settled without a witness is settled the same way once more.
+        settled(before, &all, options.coincident_m, probe);
+    }
     let mesh = cleaned(mesh, options.clean_m, probe);
     probe.emit(BooleanEvent::Finished { mesh: &mesh });
     Ok(mesh)
+}
+
+/// The same union as booleans of two operands at a time, each looked at and made again where it is not sound.
+fn one_by_one(views: &[Polyhedron], options: &Options) -> Result<Polyhedron, SolidError> {
+    let options = Options { jitter_m: 0.0, ..*options };
+    let mut map = Polyhedron::empty();
+    for (number, view) in (0..).zip(views) {
+        let mut view = view.clone();
+        if options.provenance == Provenance::Origins && view.origins().is_none() {
+            view = view.as_view(number);
+        }
+        if number == 0 {
+            map = view;
+            continue;
+        }
+        let looking = looking(&map, &view, Operation::Union);
+        let pair = [&map, &view];
+        let trials =
+            Trials::new(&ManifoldKernel, pair, Operation::Union, &options, &looking, false);
+        map = trials.taken()?.trial.mesh;
+    }
+    Ok(map)
 }
