@@ -37,7 +37,7 @@ level = "off"
 "#;
 
 /// The names under a map of `metrics.json` that scripts rely on.
-const METRIC_NAMES: [&str; 16] = [
+const METRIC_NAMES: [&str; 20] = [
     "believed_complete",
     "coverage",
     "false_completion",
@@ -53,6 +53,10 @@ const METRIC_NAMES: [&str; 16] = [
     "map_faces",
     "odometry_error_m",
     "free_iou",
+    "ways_found",
+    "ways_m",
+    "ways_repeat_m",
+    "ways_refused",
     "free_wrong_share",
 ];
 

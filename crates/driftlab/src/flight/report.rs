@@ -84,7 +84,7 @@ pub struct FlightMetrics {
     /// By which share they got shorter in their corridors; null without a path.
     pub path_shortening: Option<f64>,
     /// Times that the robot set out to somewhere that is not straight from where it was, and asked its map for a way
-    /// through the views between; 0 for a map that rides along, as are the next four.
+    /// through the views between; 0 for a map that rides along, as are the next five.
     pub ways_asked: u64,
     /// Times that the map knew one.
     pub ways_found: u64,
@@ -94,6 +94,8 @@ pub struct FlightMetrics {
     pub ways_repeat_m: f64,
     /// Times that the way through views was flown, or begun.
     pub ways_flown: u64,
+    /// Times that a leg of one could not be flown, and the robot went back to the graph.
+    pub ways_refused: u64,
     /// Distance between where odometry alone believes the robot in the end and where it is, metres.
     pub odometry_error_m: f64,
     /// How the run ended: `complete`, `stuck`, `step_limit`, or `left_the_place` for a robot that got out of the bounds

@@ -170,6 +170,7 @@ impl Rider {
             ways_m: ways.found_m,
             ways_repeat_m: ways.repeat_m,
             ways_flown: ways.begun,
+            ways_refused: ways.refused,
             odometry_error_m: (witness.world_from_body().translation - world_from_odom.translation)
                 .norm(),
             termination: match holds(witness.robot().world(), witness) {

@@ -50,6 +50,8 @@ impl Searches {
 
     /// Takes the drawings of the step before away.
     pub(super) fn wipe(&mut self, ink: &mut Ink) {
+        // What is searched next may be another space, of which nothing was told.
+        self.corners.clear();
         if std::mem::take(&mut self.drawn) {
             for part in ["tetrahedra", "graph", "goals"].iter().chain(&PARTS) {
                 ink.draw(&format!("{}/{part}", self.entity), &rerun::Clear::flat());

@@ -16,6 +16,7 @@ pub(super) fn draw(ink: &mut Ink, event: &UnionEvent<'_>) {
             ink.draw("belief/union/operand", &segments(&sides(operand), palette::SCOPE, 0.6));
         }
         UnionEvent::Sorted { patches, .. } => {
+            // These patches are told in the frame of the map.
             let at: Vec<Point3> =
                 patches.iter().flat_map(|patch| &patch.points).map(|point| point.in_body).collect();
             ink.draw("belief/union/frontier", &dots(&at, &[palette::FRONTIER], 3.0));

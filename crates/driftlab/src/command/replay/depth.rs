@@ -53,10 +53,12 @@ pub(super) fn replay(
     }
     let replayed = replayed?;
     for (name, map) in &replayed.metrics.maps {
-        let odd =
-            [(map.refused_looks, "refused"), (map.map_invalid, "not taken in as it should be")];
+        let odd = [
+            (map.refused_looks, "an image was refused"),
+            (map.map_invalid, "a view or the whole map could not be taken in as it should"),
+        ];
         for (count, what) in odd.into_iter().filter(|(count, _)| *count > 0) {
-            out.note(&format!("warning: {name}: {count} images {what}, as the recording tells"));
+            out.note(&format!("warning: {name}: {what}, {count} times"));
         }
     }
     for (name, content) in depth_files(&config, &replayed, inputs)? {
