@@ -188,10 +188,10 @@ impl FlightExplorer {
     ) -> bool {
         let all = nearby(&self.graph, self.hovering.vertex, f64::INFINITY);
         self.way = legs_to(&all, course.goal);
-        self.plan = course.plan;
         if self.way.is_empty() {
             return false;
         }
+        self.plan = course.plan;
         self.set_out(robot, probe);
         true
     }

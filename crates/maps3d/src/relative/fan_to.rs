@@ -36,7 +36,8 @@ impl RelativeMap {
         probe: &mut dyn Map3dProbe,
     ) -> Result<FanSearch, Maps3dError> {
         PlanOptions { radius_m: options.radius_m, ..PlanOptions::default() }.check()?;
-        let between = self.fans_between(hovering, vertex, place_in_vertex, options.most_volumes);
+        let most = options.most_volumes;
+        let between = self.fans_between(hovering, vertex, place_in_vertex, most, &mut *probe);
         let Some((fans, [from, to])) = between else { return Ok(FanSearch::default()) };
         let volumes = &fans.volumes[..];
         probe.emit(ConsolidationEvent::Fanned { vertex: hovering.vertex, volumes, from, to });

@@ -12,7 +12,7 @@ use super::volume::Shape;
 use super::{RelativeMap, ViewState};
 use crate::plan::{FansKnown, Space};
 use crate::view::placed_fan;
-use crate::{Hovering, Maps3dError};
+use crate::{Hovering, Map3dProbe, Maps3dError};
 
 /// Points of a way that views are chosen by lie so far apart, metres.
 const SAMPLE_M: f64 = 0.25;
@@ -74,9 +74,10 @@ impl RelativeMap {
         other: VertexId,
         place_in_other: &Point3,
         most: usize,
+        probe: &mut dyn Map3dProbe,
     ) -> Option<(Fans, [Point3; 2])> {
         self.cover(hovering.vertex.max(other));
-        self.take_scope(hovering.vertex, &mut probe::Off);
+        self.take_scope(hovering.vertex, probe);
         let rows = self.scope.placed();
         let goal = rows.iter().position(|row| row.vertex == other)?;
         let from = Point3::from(hovering.vertex_from_body.translation);

@@ -30,6 +30,8 @@ pub struct RelativeMap {
     /// The scope taken last; valid while its root and the skeleton are what they were.
     pub(super) scope: Scope<Se3>,
     pub(super) scope_is_fresh: bool,
+    /// Whether whoever listens was told of it: some questions are asked without a listener.
+    scope_is_told: bool,
     pub(super) scratch: ScopeScratch,
     /// Places that nothing can be seen at, whatever looks: vertex, place in its frame, radius in metres.
     pub(super) given_up: Vec<(VertexId, Point3<f64>, f64)>,
@@ -59,6 +61,7 @@ impl RelativeMap {
             drift: Drift::default(),
             scope: Scope::default(),
             scope_is_fresh: false,
+            scope_is_told: false,
             scratch: ScopeScratch::default(),
             given_up: Vec::new(),
             looks: 0,
@@ -105,13 +108,13 @@ impl RelativeMap {
 
     /// Gathers the scope of `root` unless that is the one at hand.
     pub(super) fn take_scope(&mut self, root: VertexId, probe: &mut dyn Map3dProbe) {
-        if self.scope_is_fresh && self.scope.root() == Some(root) {
-            return;
+        if !self.scope_is_fresh || self.scope.root() != Some(root) {
+            let radius_m = self.params.consolidation_radius_m;
+            self.scratch.place(&self.skeleton, root, radius_m, &mut self.scope);
+            (self.scope_is_fresh, self.scope_is_told) = (true, false);
         }
-        let radius_m = self.params.consolidation_radius_m;
-        self.scratch.place(&self.skeleton, root, radius_m, &mut self.scope);
-        self.scope_is_fresh = true;
-        if Probe::<ConsolidationEvent<'_>>::on(probe) {
+        if !self.scope_is_told && Probe::<ConsolidationEvent<'_>>::on(probe) {
+            self.scope_is_told = true;
             let (scope, skeleton) = (&self.scope, &self.skeleton);
             probe.emit(ConsolidationEvent::ScopeTaken { scope, skeleton });
         }

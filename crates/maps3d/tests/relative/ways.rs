@@ -178,12 +178,22 @@ fn what_the_planner_does_is_told_and_changes_nothing() {
     let (here, place) = (turned(vertices[0]), Point3::origin());
     let mut names = Names::default();
     let to = vertices[3];
+    // The scope is told to who listens, although it was taken before without anybody listening.
+    assert!(fed.map.free_lines(&here, &[], 0.0).is_empty());
     let told =
         fed.map.way_through_fans_to(&here, to, &place, &options, &mut names).expect("a radius");
     assert_eq!(told, sought(&mut fed, vertices[0], to, &place));
-    for name in
-        ["Fanned", "Joined", "Located", "Opened", "Expanded", "Routed", "Finished", "Planned"]
-    {
+    for name in [
+        "ScopeTaken",
+        "Fanned",
+        "Joined",
+        "Located",
+        "Opened",
+        "Expanded",
+        "Routed",
+        "Finished",
+        "Planned",
+    ] {
         assert!(names.0.contains(name), "{name}: {:?}", names.0);
     }
 }
