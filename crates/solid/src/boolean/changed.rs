@@ -4,8 +4,6 @@ use std::collections::{HashMap, HashSet};
 use std::hash::{BuildHasherDefault, Hasher};
 
 use super::jitter::mixed;
-use crate::bvh::Aabb;
-use crate::validity::meets_itself_near;
 use crate::{Point3, Polyhedron};
 
 /// Numbers made one number: nobody chooses them so that they fall together.
@@ -93,17 +91,4 @@ pub(super) fn thin(mesh: &Polyhedron) -> Vec<u32> {
         mesh.scaled_normal(face).norm_squared() <= longest * (THIN * reach_m).powi(2)
     };
     (0..mesh.faces().len()).filter(is_thin).map(|face| face as u32).collect()
-}
-
-/// Whether one of the pairs of faces of a result that meet does so where faces of an operand meet.
-pub(super) fn is_inherited(
-    mesh: &Polyhedron,
-    crossed: &[[u32; 2]],
-    operands: &[&Polyhedron],
-) -> bool {
-    crossed.iter().any(|pair| {
-        let [a, b] = pair.map(|face| Aabb::around(mesh.corners(face as usize)));
-        let both = Aabb { low: a.low.sup(&b.low), high: a.high.inf(&b.high) };
-        operands.iter().any(|operand| meets_itself_near(operand, &both))
-    })
 }

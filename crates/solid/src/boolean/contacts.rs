@@ -29,7 +29,7 @@ pub(super) enum Contacts {
 /// How the surfaces of two meshes lie to each other; faces in planes that are alike within `eps_m` are in contact
 /// where they are near each other.
 pub(super) fn contacts(a: &Polyhedron, b: &Polyhedron, eps_m: f64) -> Contacts {
-    let rounding_m = rounding_m([a, b]);
+    let rounding_m = rounding_m(&[a, b]);
     let mut worst = Contacts::None;
     let _ = each_near(a, b, eps_m, |one, other| {
         worst = worst.max(meeting(one, other, eps_m, rounding_m));
@@ -41,7 +41,7 @@ pub(super) fn contacts(a: &Polyhedron, b: &Polyhedron, eps_m: f64) -> Contacts {
 /// Whether faces of two meshes are in planes that are alike within `eps_m`, and farther apart than rounding:
 /// one mesh has layers that an earlier move left.
 pub(super) fn are_layered(a: &Polyhedron, b: &Polyhedron, eps_m: f64) -> bool {
-    let rounding_m = rounding_m([a, b]);
+    let rounding_m = rounding_m(&[a, b]);
     each_near(a, b, eps_m, |one, other| {
         let Some([n, m]) = normals([one, other]) else { return ControlFlow::Continue(()) };
         let heights = other.map(|p| (p - one[0]).dot(&n).abs());
@@ -55,8 +55,8 @@ pub(super) fn are_layered(a: &Polyhedron, b: &Polyhedron, eps_m: f64) -> bool {
 }
 
 /// What is rounding at the largest coordinate of some meshes, metres.
-pub(super) fn rounding_m(meshes: [&Polyhedron; 2]) -> f64 {
-    let bounds = meshes.into_iter().filter_map(Polyhedron::bounds);
+pub(super) fn rounding_m(meshes: &[&Polyhedron]) -> f64 {
+    let bounds = meshes.iter().filter_map(|mesh| mesh.bounds());
     let reach = bounds.map(|(low, high)| low.coords.amax().max(high.coords.amax()));
     ROUNDING * reach.fold(0.0, f64::max)
 }

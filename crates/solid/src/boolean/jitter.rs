@@ -37,7 +37,7 @@ pub fn jittered(view: &Polyhedron, seed: u64, amplitude_m: f64) -> Polyhedron {
 const BY_CHANCE: f64 = 0.25;
 
 /// At most so many times its face moves a vertex at a sharp corner.
-const FARTHEST: f64 = 4.0;
+pub(super) const FARTHEST: f64 = 4.0;
 
 /// The mesh with its faces moved outwards by about `by_m`, inwards where that is negative.
 ///

@@ -71,7 +71,8 @@ fn divided(surgery: &mut Surgery, places: Vec<Point3>, within_m: f64) -> Vec<Poi
             let place = &places[index as usize];
             let off_m = (place - from).cross(&(to - from)).norm() / (to - from).norm();
             let best = &mut nearest[index as usize];
-            if place != from && place != to && off_m <= within_m && off_m < best.0 {
+            let is_corner = surgery.beside(side).any(|face| surgery.corners(face).contains(&place));
+            if !is_corner && off_m <= within_m && off_m < best.0 {
                 *best = (off_m, side);
             }
         });

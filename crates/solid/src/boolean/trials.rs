@@ -3,19 +3,23 @@
 use probe::{Off, Probe};
 
 use super::attempt::{apart, attempt, failed};
-use super::changed::{changed, is_inherited, thin};
+use super::changed::{changed, thin};
 use super::combine::{labelled, refused, settled};
 use super::contacts::{Contacts, contacts, rounding_m};
-use super::jitter::{distances, grown, mixed};
+use super::jitter::{FARTHEST, distances, grown, mixed};
 use super::leaves::tidied;
 use super::matching::matched;
 use super::tags::Tags;
 use super::{BooleanEvent, Kernel, Operation, Options};
-use crate::validity::{crossed, flat_faces};
-use crate::{Polyhedron, SolidError, crossings};
+use crate::validity::{crossed, flat_faces, meets_itself_at};
+use crate::{Point3, Polyhedron, SolidError, crossings};
 
-/// So many pairs of faces that meet are looked at.
+/// So many places where faces meet are looked at first.
 const MOST_CROSSED: usize = 16;
+/// So many are looked at in all before another trial.
+const ALL_CROSSED: usize = 1000;
+/// Within so many times what is rounding faces of an operand meet where those of a result do.
+const INHERITED: f64 = 8.0;
 
 /// Faces coincide within so many times the jitter at least.
 const COINCIDENT_JITTERS: f64 = 10.0;
@@ -33,8 +37,8 @@ pub(super) struct Trial {
     pub(super) jitter_m: f64,
     /// Whether contacts were looked after.
     pub(super) contact: bool,
-    /// Faces that meet where they should not, in pairs, or are flat, twice: some of them where there are any.
-    crossed: Vec<[u32; 2]>,
+    /// Where faces meet that should not, or one is flat: some of the places where there are any.
+    crossed: Vec<Point3>,
 }
 
 impl Trial {
@@ -43,11 +47,25 @@ impl Trial {
     }
 }
 
-/// Faces of a mesh that meet where they should not, in pairs, or are flat, twice: some of them where there are any.
-pub(super) fn all_crossed(mesh: &Polyhedron) -> Vec<[u32; 2]> {
-    let flat = flat_faces(mesh).into_iter().map(|face| [face, face]);
-    let meeting = crossings(mesh, MOST_CROSSED).into_iter().map(|pair| pair.faces);
-    flat.chain(meeting).take(MOST_CROSSED).collect()
+/// Where faces of a mesh meet that should not, or one is flat: at most `limit` places.
+pub(super) fn all_crossed(mesh: &Polyhedron, limit: usize) -> Vec<Point3> {
+    let flat = flat_faces(mesh).into_iter().map(|face| *mesh.corners(face as usize)[0]);
+    let meeting = crossings(mesh, limit).into_iter().map(|pair| pair.at);
+    flat.chain(meeting).take(limit).collect()
+}
+
+/// Whether a result meets itself at `some` places or any others where an operand, moved by up to `by_m`, does.
+pub(super) fn is_inherited(
+    mesh: &Polyhedron,
+    some: &[Point3],
+    operands: &[&Polyhedron],
+    by_m: f64,
+) -> bool {
+    let within_m = FARTHEST * by_m + INHERITED * rounding_m(operands);
+    let by_one = |places: &[Point3]| {
+        operands.iter().any(|operand| meets_itself_at(operand, places, within_m))
+    };
+    by_one(some) || by_one(&all_crossed(mesh, ALL_CROSSED))
 }
 
 /// The trial that is the result, and how many others there were.
@@ -114,7 +132,7 @@ impl<'a, K: Kernel> Trials<'a, K> {
             first = Some(plain);
         }
         for (turn, jitter_m) in
-            distances(self.options.jitter_m, rounding_m(self.operands)).into_iter().enumerate()
+            distances(self.options.jitter_m, rounding_m(&self.operands)).into_iter().enumerate()
         {
             let seed = match turn {
                 0 => self.options.seed,
@@ -157,8 +175,7 @@ impl<'a, K: Kernel> Trials<'a, K> {
     /// Whether faces of a trial meet where faces of an operand do: then so do those of every other.
     fn inherits(&self, trial: &Trial) -> bool {
         !trial.is_sound()
-            && (is_inherited(&trial.mesh, &trial.crossed, &self.operands)
-                || is_inherited(&trial.mesh, &all_crossed(&trial.mesh), &self.operands))
+            && is_inherited(&trial.mesh, &trial.crossed, &self.operands, trial.jitter_m)
     }
 
     /// One trial, with the second operand moved by `jitter_m`.
@@ -181,7 +198,7 @@ impl<'a, K: Kernel> Trials<'a, K> {
                 attempt(self.kernel, &taken_a, &taken_b, self.operation, &tags, contact)?;
             let used = [a, moved.as_ref().unwrap_or(b)];
             let (combined, at) = if self.operation == Operation::SymmetricDifference && !contact {
-                matched(combined, &used, rounding_m(self.operands))
+                matched(combined, &used, rounding_m(&self.operands))
             } else {
                 (combined, Vec::new())
             };
@@ -250,7 +267,7 @@ impl<'a, K: Kernel> Trials<'a, K> {
         let mesh = self.settled(combined, jitter_m, contact, &mut Off);
         let crossed = if self.contacts == Contacts::Rounded && jitter_m == 0.0 {
             // Faces that the engine left as they were may meet, too.
-            all_crossed(&mesh)
+            all_crossed(&mesh, MOST_CROSSED)
         } else {
             let mut some = if contact { changed(&mesh, used) } else { thin(&mesh) };
             some.extend(at);

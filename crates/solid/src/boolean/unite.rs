@@ -2,11 +2,10 @@
 
 use probe::{Off, Probe};
 
-use super::changed::is_inherited;
 use super::combine::{cleaned, labelled, looking, refused, settled};
 use super::leaves::tidied;
 use super::tags::Tags;
-use super::trials::{Trials, all_crossed};
+use super::trials::{Trials, all_crossed, is_inherited};
 use super::{BooleanEvent, Kernel, ManifoldKernel, Operation, Options, Provenance, Refusal};
 use crate::{Polyhedron, SolidError};
 
@@ -66,11 +65,12 @@ pub fn unite_with(
     let all: Vec<_> = views.iter().map(|view| (view, 1.0)).collect();
     let mut before = probe.on().then(|| combined.clone());
     let mut mesh = settled(combined, &all, options.coincident_m, &mut Off);
-    let crossed = all_crossed(&mesh);
-    if !crossed.is_empty() && !is_inherited(&mesh, &crossed, &views.iter().collect::<Vec<_>>()) {
+    let crossed = all_crossed(&mesh, 1);
+    if !crossed.is_empty() && !is_inherited(&mesh, &crossed, &views.iter().collect::<Vec<_>>(), 0.0)
+    {
         let by_trials = one_by_one(views, options)?;
         let settled = settled(by_trials.clone(), &all, options.coincident_m, &mut Off);
-        if all_crossed(&settled).is_empty() {
+        if all_crossed(&settled, 1).is_empty() {
             before = probe.on().then_some(by_trials);
             mesh = settled;
         }

@@ -8,6 +8,7 @@ use super::faces_meet::meet;
 use crate::bvh::{Aabb, Bvh};
 use crate::mesh::position_classes;
 use crate::predicates::is_collinear;
+use crate::query::distance_to_triangle;
 use crate::{Point3, Polyhedron};
 
 /// How two faces meet that should not.
@@ -86,25 +87,20 @@ pub(super) fn crossings_of(mesh: &Polyhedron, flat: &[u32], limit: usize) -> Vec
     found
 }
 
-/// Which of the faces `some` are flat, each twice, and the pairs of one of them and any face that have more in
-/// common than corners and edges at the same places: at most `limit`, as they are found; exact.
+/// Where one of the faces `some` is flat, or has more in common with any face than corners and edges at the same
+/// places: at most `limit` places, as they are found; whether there is one is exact, where it is to rounding.
 ///
 /// O((n + k) log k) for k of n faces where few boxes touch.
-pub(crate) fn crossed(mesh: &Polyhedron, some: &[u32], limit: usize) -> Vec<[u32; 2]> {
-    let mut found: Vec<[u32; 2]> = some
-        .iter()
-        .filter(|&&face| is_flat(mesh, face))
-        .map(|&face| [face, face])
-        .take(limit)
-        .collect();
+pub(crate) fn crossed(mesh: &Polyhedron, some: &[u32], limit: usize) -> Vec<Point3> {
+    let flat = some.iter().filter(|&&face| is_flat(mesh, face));
+    let mut found: Vec<Point3> =
+        flat.map(|&face| *mesh.corners(face as usize)[0]).take(limit).collect();
     if found.len() >= limit {
         return found;
     }
     let tree = Bvh::new(&some.iter().map(|&face| around(mesh, face)).collect::<Vec<_>>());
     let mut look = |a: u32, b: u32| {
-        if faces_meet(mesh, a, b) {
-            found.push([a, b]);
-        }
+        found.extend(meeting(mesh, a, b));
         if found.len() < limit { ControlFlow::Continue(()) } else { ControlFlow::Break(()) }
     };
     let mut listed = vec![false; mesh.faces().len()];
@@ -128,21 +124,34 @@ pub(crate) fn crossed(mesh: &Polyhedron, some: &[u32], limit: usize) -> Vec<[u32
     found
 }
 
-/// Whether two faces have more in common than corners and edges at the same places.
-fn faces_meet(mesh: &Polyhedron, a: u32, b: u32) -> bool {
+/// Where two faces have more in common than corners and edges at the same places.
+fn meeting(mesh: &Polyhedron, a: u32, b: u32) -> Option<Point3> {
     let (p, q) = (mesh.corners(a as usize), mesh.corners(b as usize));
     // The places of the second are those of the first where they are the same.
     let place = |j: usize| p.iter().position(|&at| at == q[j]).unwrap_or(3 + j) as u32;
-    meet(p, [0, 1, 2], q, [0, 1, 2].map(place)).is_some()
+    meet(p, [0, 1, 2], q, [0, 1, 2].map(place)).map(|(_, at)| at)
 }
 
-/// Whether two of the faces whose boxes touch a box have more in common than corners and edges at the same
-/// places. O(n + k^2) for k such faces.
-pub(crate) fn meets_itself_near(mesh: &Polyhedron, aabb: &Aabb) -> bool {
-    let near = |&face: &u32| around(mesh, face).touches(aabb);
-    let near: Vec<u32> = (0..mesh.faces().len() as u32).filter(near).collect();
-    let pairs = near.iter().enumerate().flat_map(|(i, &a)| near[..i].iter().map(move |&b| (a, b)));
-    pairs.into_iter().any(|(a, b)| faces_meet(mesh, a, b))
+/// Whether two of the faces within `within_m` of one of some places have more in common than corners and edges at
+/// the same places. O((n + m) log m + k) for m places and k pairs of faces at the same one.
+pub(crate) fn meets_itself_at(mesh: &Polyhedron, places: &[Point3], within_m: f64) -> bool {
+    let boxes: Vec<Aabb> = places.iter().map(|at| Aabb::around([at]).grown(within_m)).collect();
+    let tree = Bvh::new(&boxes);
+    let mut near: Vec<(u32, u32)> = Vec::new();
+    for face in 0..mesh.faces().len() as u32 {
+        tree.each_touching(&around(mesh, face), |at| {
+            let corners = mesh.corners(face as usize);
+            if distance_to_triangle(&places[at as usize], corners) <= within_m {
+                near.push((at, face));
+            }
+        });
+    }
+    near.sort_unstable();
+    near.chunk_by(|a, b| a.0 == b.0).any(|at| {
+        at.iter()
+            .enumerate()
+            .any(|(i, &(_, a))| at[..i].iter().any(|&(_, b)| meeting(mesh, a, b).is_some()))
+    })
 }
 
 fn around(mesh: &Polyhedron, face: u32) -> Aabb {

@@ -25,5 +25,5 @@ mod vertices;
 
 pub use check::{Defect, Validity, check, check_topology};
 pub use crossings::{Contact, Crossing, crossings};
-pub(crate) use crossings::{crossed, flat_faces, meets_itself_near};
+pub(crate) use crossings::{crossed, flat_faces, meets_itself_at};
 pub(crate) use faces_meet::meet;
